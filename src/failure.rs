@@ -5,7 +5,7 @@ use crate::words::printable;
 use compare::CompareError;
 use data::{Fault, Location};
 use fem::FemError;
-use fem::error::Refusal;
+use fem::error::TextFault;
 use ibr::pages::PageError;
 use miette::{
     GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteDiagnostic, MietteError, MietteSpanContents,
@@ -154,7 +154,7 @@ impl Failure {
         };
         match self {
             Failure::Fem(FemError::Refused(refused)) => {
-                let Refusal { file, text, message, span, .. } = &**refused;
+                let TextFault { file, text, message, span, .. } = &**refused;
                 in_text(file, text, message, span.clone(), shown)
             }
             Failure::Compare(error) => match error.fault() {

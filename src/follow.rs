@@ -1,7 +1,7 @@
 //! A stream of pressures in, a stream of poses out, line by line: for a simulator or a log next to the real robot.
 
 use crate::shown::predicted::{above_limit, beyond_words};
-use crate::stream::{BEYOND, HEADER, LIMIT, LINE, Lines, MARKS, Marked, Reading, UNSOLVED, columns};
+use crate::stream::{BEYOND, HEADER, LIMIT, LINE, MARKS, Marked, StreamLines, StreamReading, UNSOLVED, columns};
 use compare::CompareError;
 use models::{CHANNELS, InLine, Loads, Model, Prediction, Scenario, Step};
 use spelling::units::Range;
@@ -120,11 +120,12 @@ pub fn follow(scenario: &Scenario, input: impl BufRead, mut output: impl Write) 
     let mut follower = Follower::new(scenario);
     let channels = follower.channels();
     let (mut lines, columns) =
-        Lines::begin(input, "standard input", HEADER, |header| columns(header, &channels, true))?;
+        StreamLines::begin(input, "standard input", HEADER, |header| columns(header, &channels, true))?;
     let names: String = channels.iter().map(|channel| format!(",p{channel}_kpa")).collect();
     let mut write = |text: String| output.write_all(text.as_bytes()).and_then(|()| output.flush()).is_ok();
     let mut goes_on = write(format!("t_s,x_mm,y_mm,angle_deg{names},mark\n"));
-    let (mut last, mut followed, mut highest_pa) = (Reading::at_rest(scenario.p_body_pa), Followed::default(), 0.0);
+    let (mut last, mut followed, mut highest_pa) =
+        (StreamReading::at_rest(scenario.p_body_pa), Followed::default(), 0.0);
     // Not a number until the first equilibrium.
     let mut tip = follower.state.tip;
     [tip.x_m, tip.y_m, tip.angle_rad] = [f64::NAN; 3];

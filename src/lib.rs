@@ -72,7 +72,7 @@ mod zip;
 
 pub use ::{compare as study, sweep};
 pub use ::compare::diagnosis::{Diagnosis, Options as DiagnosisOptions, diagnose};
-pub use ::compare::extension::{Wish, add};
+pub use ::compare::extension::{EffectWish, add};
 pub use ::compare::ladder::{Climb, ladder};
 pub use ::compare::study::comparison::{Contender, Variant, compare_all};
 pub use ::compare::validation::{BeforeAfter, Validation, validate};
@@ -81,7 +81,7 @@ pub use asked::{Asked, ask};
 pub use data;
 pub use data::import;
 pub use fem;
-pub use fem::session::{FeRun, Settings as FeSettings, Source as FeSource, simulate, simulate_all};
+pub use fem::session::{FeRun, RunSettings as FeSettings, Source as FeSource, simulate, simulate_all};
 pub use follow::{Followed, Follower, follow};
 pub use import_typed::import_typed;
 pub use interval::{PressureInterval, Unmeasured, pressure_interval};

@@ -88,11 +88,11 @@ const MANIFEST_FILE: &str = "manifest.json";
 /// The files that the manifest in a folder lists; none without one.
 fn listed(folder: &Path) -> Vec<Input> {
     #[derive(Deserialize)]
-    struct Listed {
+    struct ListedOutputs {
         outputs: Vec<Input>,
     }
     let text = std::fs::read_to_string(folder.join(MANIFEST_FILE)).unwrap_or_default();
-    MANIFEST.read::<Listed>(MANIFEST_FILE, &text, "").map_or(Vec::new(), |manifest| manifest.outputs)
+    MANIFEST.read::<ListedOutputs>(MANIFEST_FILE, &text, "").map_or(Vec::new(), |manifest| manifest.outputs)
 }
 
 fn unchanged(folder: &Path) -> Vec<Input> {

@@ -7,13 +7,13 @@ pub(crate) use crate::output::{
     spares_inputs, write_example, write_files, write_texts, write_whole,
 };
 pub(crate) use crate::pages::Files;
-pub(crate) use crate::tables::{Table, lines, wrapped};
+pub(crate) use crate::tables::{TextTable, lines, wrapped};
 pub(crate) use crate::words::{effect, in_words, number, pressure_words};
 pub(crate) use compare::{Evidence, ScenarioFile};
 pub(crate) use data::{Dataset, Provenance};
 pub(crate) use models::scenario::quantity::Quantity;
 pub(crate) use models::{Known, Loads, Model, Scenario};
-pub(crate) use report::chart::{Bar, Chart, ChartColumn, ChartRow, Key, KeyLook, Mark, Point, RowPlace, Space};
+pub(crate) use report::chart::{Bar, Chart, ChartColumn, ChartRow, KeyLook, LegendEntry, Mark, Point, RowPlace, Space};
 pub(crate) use report::{Drawn, Ink, LineSeries, LineStyle, Lines, Symbol};
 pub(crate) use serde::Serialize;
 pub(crate) use std::path::{Path, PathBuf};

@@ -30,7 +30,7 @@ pub(crate) const BEYOND: usize = 6;
 pub(crate) type Marked = [bool; MARKS.len()];
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Column {
+pub(crate) enum StreamColumn {
     Time,
     Body,
     All,
@@ -56,7 +56,7 @@ pub fn pressures_of(scenario: &Scenario, path: &Path, most: usize) -> Result<Vec
     };
     let input = BufReader::new(File::open(path).map_err(unread)?);
     let channels: Vec<usize> = Model::new(scenario).channels().collect();
-    let (mut lines, columns) = Lines::begin(input, &name, TABLE, |header| columns(header, &channels, false))?;
+    let (mut lines, columns) = StreamLines::begin(input, &name, TABLE, |header| columns(header, &channels, false))?;
     let mut all = Vec::new();
     while let Some(line) = lines.next()? {
         let line = line.map_err(|what| lines.fault(&what))?;
@@ -69,7 +69,7 @@ pub fn pressures_of(scenario: &Scenario, path: &Path, most: usize) -> Result<Vec
 }
 
 /// Lines that are read one by one into one buffer.
-pub(crate) struct Lines<R> {
+pub(crate) struct StreamLines<R> {
     input: R,
     /// For messages: where they are from, and how they should look.
     from: String,
@@ -78,14 +78,14 @@ pub(crate) struct Lines<R> {
     line: Vec<u8>,
 }
 
-impl<R: BufRead> Lines<R> {
+impl<R: BufRead> StreamLines<R> {
     pub(crate) fn begin<T>(
         input: R,
         from: &str,
         how: &'static str,
         header: impl Fn(&str) -> Result<T, String>,
-    ) -> Result<(Lines<R>, T), CompareError> {
-        let mut lines = Lines { input, from: from.into(), how, number: 0, line: Vec::new() };
+    ) -> Result<(StreamLines<R>, T), CompareError> {
+        let mut lines = StreamLines { input, from: from.into(), how, number: 0, line: Vec::new() };
         let Some(first) = lines.next()? else { return Err(lines.fault("nothing came in")) };
         let first = first.map_err(|what| lines.fault(&what))?;
         let found = header(&first).map_err(|what| lines.fault(&what))?;
@@ -140,16 +140,16 @@ impl<R: BufRead> Lines<R> {
 }
 
 /// The columns of the header, with a time or without; a channel that feeds nothing is refused.
-pub(crate) fn columns(header: &str, fed: &[usize], timed: bool) -> Result<Vec<(Column, Unit)>, String> {
-    let mut found: Vec<(Column, Unit)> = Vec::new();
+pub(crate) fn columns(header: &str, fed: &[usize], timed: bool) -> Result<Vec<(StreamColumn, Unit)>, String> {
+    let mut found: Vec<(StreamColumn, Unit)> = Vec::new();
     for name in header.split(',').map(|name| name.trim().to_lowercase()) {
         let (base, unit) = name.rsplit_once('_').ok_or_else(|| format!("`{name}` has no unit"))?;
         let (column, dimension) = match base {
-            "t" => (Column::Time, Dimension::TIME),
-            "p_body" => (Column::Body, Dimension::PRESSURE),
-            "p" | "p_act" => (Column::All, Dimension::PRESSURE),
+            "t" => (StreamColumn::Time, Dimension::TIME),
+            "p_body" => (StreamColumn::Body, Dimension::PRESSURE),
+            "p" | "p_act" => (StreamColumn::All, Dimension::PRESSURE),
             _ => match base.strip_prefix('p').and_then(|digits| digits.parse().ok()) {
-                Some(channel) if fed.contains(&channel) => (Column::Channel(channel), Dimension::PRESSURE),
+                Some(channel) if fed.contains(&channel) => (StreamColumn::Channel(channel), Dimension::PRESSURE),
                 Some(channel) => {
                     return Err(format!("`{name}`: nothing is supplied by channel {channel} in this scenario"));
                 }
@@ -163,9 +163,10 @@ pub(crate) fn columns(header: &str, fed: &[usize], timed: bool) -> Result<Vec<(C
         }
         found.push((column, unit));
     }
-    let has = |column: Column| found.iter().any(|(known, _)| *known == column);
-    let (some, every) = (fed.iter().any(|c| has(Column::Channel(*c))), fed.iter().all(|c| has(Column::Channel(*c))));
-    match (has(Column::Time), has(Column::All), some) {
+    let has = |column: StreamColumn| found.iter().any(|(known, _)| *known == column);
+    let (some, every) =
+        (fed.iter().any(|c| has(StreamColumn::Channel(*c))), fed.iter().all(|c| has(StreamColumn::Channel(*c))));
+    match (has(StreamColumn::Time), has(StreamColumn::All), some) {
         (false, ..) if timed => Err("column t_s is missing".into()),
         (true, ..) if !timed => Err("it has times: give it to ibr predict --follow as standard input".into()),
         (_, true, true) => Err("p for all channels and pressures of single ones give the same twice".into()),
@@ -174,16 +175,16 @@ pub(crate) fn columns(header: &str, fed: &[usize], timed: bool) -> Result<Vec<(C
     }
 }
 
-fn put(column: Column, pa: f64, loads: &mut Loads) {
+fn put(column: StreamColumn, pa: f64, loads: &mut Loads) {
     match column {
-        Column::Time => {}
-        Column::Body => loads.body_pa = pa,
-        Column::All => loads.actuator_pa = [pa; CHANNELS],
-        Column::Channel(channel) => loads.actuator_pa[channel] = pa,
+        StreamColumn::Time => {}
+        StreamColumn::Body => loads.body_pa = pa,
+        StreamColumn::All => loads.actuator_pa = [pa; CHANNELS],
+        StreamColumn::Channel(channel) => loads.actuator_pa[channel] = pa,
     }
 }
 
-fn read(line: &str, columns: &[(Column, Unit)], body_pa: f64) -> Result<Loads, String> {
+fn read(line: &str, columns: &[(StreamColumn, Unit)], body_pa: f64) -> Result<Loads, String> {
     let cells: Vec<&str> = line.split(',').map(str::trim).collect();
     if cells.len() != columns.len() {
         return Err(format!("{} cells, the header has {}", cells.len(), columns.len()));
@@ -202,7 +203,7 @@ const NEAR_ZERO_PA: f64 = 500.0;
 const NEW_CLOCK: usize = 5;
 
 #[derive(Debug)]
-pub(crate) struct Reading {
+pub(crate) struct StreamReading {
     pub t_s: f64,
     pub loads: Loads,
     /// Shift added to the times, since a clock began again \[s\].
@@ -211,15 +212,15 @@ pub(crate) struct Reading {
     late: (usize, f64),
 }
 
-impl Reading {
+impl StreamReading {
     /// At time 0, with nothing in the actuators.
-    pub(crate) fn at_rest(body_pa: f64) -> Reading {
+    pub(crate) fn at_rest(body_pa: f64) -> StreamReading {
         let loads = Loads { body_pa, actuator_pa: [0.0; CHANNELS] };
-        Reading { t_s: 0.0, loads, ahead_s: 0.0, late: (0, 0.0) }
+        StreamReading { t_s: 0.0, loads, ahead_s: 0.0, late: (0, 0.0) }
     }
 
     /// Takes the good values of a line, and marks the others.
-    pub(crate) fn take(&mut self, line: &str, columns: &[(Column, Unit)], marked: &mut Marked) {
+    pub(crate) fn take(&mut self, line: &str, columns: &[(StreamColumn, Unit)], marked: &mut Marked) {
         let cells: Vec<&str> = line.split(',').map(str::trim).collect();
         if cells.len() != columns.len() {
             marked[LINE] = true;
@@ -227,16 +228,16 @@ impl Reading {
         }
         let value = |cell: &str, unit: &Unit| unit.to_si(cell.parse().unwrap_or(f64::NAN));
         let all = || cells.iter().zip(columns).map(|(cell, (column, unit))| (*column, value(cell, unit)));
-        let time = all().find(|(column, _)| *column == Column::Time).map_or(f64::NAN, |(_, t_s)| t_s);
+        let time = all().find(|(column, _)| *column == StreamColumn::Time).map_or(f64::NAN, |(_, t_s)| t_s);
         if !self.is_next(time) {
             marked[CLOCK] = true;
             return;
         }
-        for (column, pa) in all().filter(|(column, _)| *column != Column::Time) {
-            let bounds = if column == Column::Body { &Range::BODY_PRESSURE } else { &Range::ACTUATOR_PRESSURE };
+        for (column, pa) in all().filter(|(column, _)| *column != StreamColumn::Time) {
+            let bounds = if column == StreamColumn::Body { &Range::BODY_PRESSURE } else { &Range::ACTUATOR_PRESSURE };
             if bounds.contains(pa) {
                 put(column, pa, &mut self.loads);
-            } else if column != Column::Body && (-NEAR_ZERO_PA..0.0).contains(&pa) {
+            } else if column != StreamColumn::Body && (-NEAR_ZERO_PA..0.0).contains(&pa) {
                 marked[ZERO] = true;
                 put(column, 0.0, &mut self.loads);
             } else {

@@ -4,7 +4,7 @@ use crate::words::number;
 use serde::Serialize;
 
 /// Rows, and columns that each have a head and what they say of a row.
-pub(crate) struct Table<R> {
+pub(crate) struct TextTable<R> {
     rows: Vec<R>,
     columns: Vec<TextColumn>,
 }
@@ -15,10 +15,10 @@ struct TextColumn {
     cells: Vec<String>,
 }
 
-impl<R> Table<R> {
+impl<R> TextTable<R> {
     /// A table of these rows that has no column yet.
-    pub(crate) fn of(rows: impl IntoIterator<Item = R>) -> Table<R> {
-        Table { rows: rows.into_iter().collect(), columns: Vec::new() }
+    pub(crate) fn of(rows: impl IntoIterator<Item = R>) -> TextTable<R> {
+        TextTable { rows: rows.into_iter().collect(), columns: Vec::new() }
     }
 
     fn column<S: Into<String>>(mut self, head: impl Into<String>, flush_right: bool, cell: impl Fn(&R) -> S) -> Self {
@@ -104,10 +104,10 @@ pub(crate) struct PageTable {
     rows: Vec<Vec<String>>,
 }
 
-impl Table<Vec<String>> {
+impl TextTable<Vec<String>> {
     /// Finished cells; columns after the first `left` ones are flush right.
     pub(crate) fn finished<S: AsRef<str>>(heads: &[S], left: usize, rows: Vec<Vec<String>>) -> Self {
-        heads.iter().enumerate().fold(Table::of(rows), |table, (k, head)| {
+        heads.iter().enumerate().fold(TextTable::of(rows), |table, (k, head)| {
             table.column(head.as_ref(), k >= left, |row| row.get(k).cloned().unwrap_or_default())
         })
     }
@@ -145,7 +145,7 @@ mod tests {
     #[test]
     fn columns_are_as_wide_as_their_widest_cell_and_numbers_are_flush_right() {
         let rows = [("µ", Some(1.25)), ("name", None)];
-        let text = Table::of(rows).words("a", |r| r.0).number("mm", 1, |r| r.1).text();
+        let text = TextTable::of(rows).words("a", |r| r.0).number("mm", 1, |r| r.1).text();
         assert_eq!(text, "| a    |  mm |\n|------|-----|\n| µ    | 1.2 |\n| name |   – |\n");
     }
 

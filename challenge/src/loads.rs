@@ -4,7 +4,7 @@
 const TABLE_M: f64 = 0.3;
 
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct DeadLoads {
+pub(crate) struct AttachedLoads {
     pub weight_n_per_m: Vec<f64>,
     /// Unit vector of gravity in the plane of bending.
     pub down: [f64; 2],
@@ -24,9 +24,9 @@ pub(crate) fn in_plane([x, y, _]: [f64; 3]) -> [f64; 2] {
     [x, y]
 }
 
-impl DeadLoads {
-    pub(crate) fn none(cells: usize, down: [f64; 2]) -> DeadLoads {
-        DeadLoads {
+impl AttachedLoads {
+    pub(crate) fn none(cells: usize, down: [f64; 2]) -> AttachedLoads {
+        AttachedLoads {
             weight_n_per_m: vec![0.0; cells],
             down,
             cable_n: 0.0,

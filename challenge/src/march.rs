@@ -1,7 +1,7 @@
 //! A run: the protocol in time, cell by cell, with what the cells remember.
 
 use super::poses::CellPoses;
-use super::robot::{Acting, TrueRobot};
+use super::robot::{CellLoads, TrueRobot};
 use super::wall::{CellMemory, CellWall};
 use compare::error::CompareError;
 use data::Hold;
@@ -145,7 +145,7 @@ impl March<'_> {
                 self.curvatures[i - 1]
             } else {
                 let (p_body_pa, dt_s) = (at.p_body_pa, at.dt_s);
-                let acting = Acting { p_body_pa, p_act_pa, moment: self.moments[i], dt_s };
+                let acting = CellLoads { p_body_pa, p_act_pa, moment: self.moments[i], dt_s };
                 let solved = cells[i].solve(&acting, &self.memory[i]);
                 solved.ok_or_else(|| unbalanced(at, &format!("s = {:.0} mm", cells[i].start_m * 1e3)))?
             };

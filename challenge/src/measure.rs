@@ -3,8 +3,8 @@
 use super::march;
 use super::robot::TrueRobot;
 use compare::error::CompareError;
-use compare::study::eye::Seen;
-use compare::study::generate::{Generator, Manometer, Scatter, holds, markers};
+use compare::study::eye::SimulatedCamera;
+use compare::study::generate::{Generator, Manometer, NormalNumbers, holds, markers};
 use data::{Dataset, Hold};
 use models::Scenario;
 
@@ -49,7 +49,7 @@ pub(crate) fn measure_holds(
     holds: Vec<Hold>,
 ) -> Result<Dataset, CompareError> {
     let g = &measurement.generator;
-    let mut eye = Seen::new(g, holds.len());
+    let mut eye = SimulatedCamera::new(g, holds.len());
     eye.heavy_tails = measurement.heavy_tails;
     let mut manometer = g.gauge.then(|| Manometer::new(g.seed));
     let (mut coordinates_m, mut readings) = (Vec::new(), Vec::new());
@@ -83,7 +83,7 @@ pub(crate) fn measure_holds(
 }
 
 fn lost(dataset: &Dataset, seed: u64) -> Vec<[usize; 3]> {
-    let mut scatter = Scatter::new(seed ^ LOSSES);
+    let mut scatter = NormalNumbers::new(seed ^ LOSSES);
     let top_pa = dataset.holds.iter().fold(0.0, |top: f64, hold| top.max(hold.p_act_pa));
     let (holds, markers) = (dataset.holds.len(), dataset.markers.len());
     let cells = (0..dataset.runs.len()).flat_map(|run| (0..holds).map(move |hold| (run, hold)));

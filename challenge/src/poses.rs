@@ -1,7 +1,7 @@
 //! Centre line of the cells, and the moments that weights and forces exert on them.
 
 use super::camera::SeenPoint;
-use super::loads::DeadLoads;
+use super::loads::AttachedLoads;
 use super::robot::Cell;
 
 /// Shape of the robot: the start of every cell and its end, by exact arcs of the shortened centre line.
@@ -33,7 +33,7 @@ impl CellPoses {
 
     /// Generalised force of the loads on every curvature \[N·m\]: the turn of everything beyond the cell's middle, and the
     /// shortening of the centre line there.
-    pub(crate) fn moments(&self, cells: &[Cell], loads: &DeadLoads) -> Vec<f64> {
+    pub(crate) fn moments(&self, cells: &[Cell], loads: &AttachedLoads) -> Vec<f64> {
         let tip = self.nodes[cells.len()];
         let mut beyond = FarForces { force: [0.0; 2], turn: 0.0 };
         beyond.add(tip, loads.on_tip(tip));

@@ -2,7 +2,7 @@
 
 use super::camera::Camera;
 use super::drive::Drive;
-use super::loads::{DeadLoads, in_plane};
+use super::loads::{AttachedLoads, in_plane};
 use super::root::root;
 use super::supply::TrueSupply;
 use super::wall::{CellMemory, CellWall};
@@ -31,7 +31,7 @@ pub(crate) struct TrueRobot {
     /// Marker stations where they really are \[m\].
     pub markers_m: Vec<f64>,
     pub supply: TrueSupply,
-    pub loads: DeadLoads,
+    pub loads: AttachedLoads,
     pub camera: Camera,
     /// Curvature of the robot without hidden effects at 30 kPa on 2 kPa \[1/m\]: the scale of what depends on size.
     pub scale_per_m: f64,
@@ -60,7 +60,7 @@ impl TrueRobot {
         let scale_per_m = scale(scenario)?;
         let cells: Vec<Cell> = cells(scenario, lift_share, scale_per_m);
         Ok(TrueRobot {
-            loads: DeadLoads::none(cells.len(), in_plane(scenario.gravity_direction)),
+            loads: AttachedLoads::none(cells.len(), in_plane(scenario.gravity_direction)),
             cells,
             length_m: scenario.length_m,
             markers_m: scenario.markers_m.clone(),
@@ -138,7 +138,7 @@ fn cells(scenario: &Scenario, lift_share: f64, scale_per_m: f64) -> Vec<Cell> {
 
 /// What acts on one cell in one step of time.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Acting {
+pub(super) struct CellLoads {
     pub p_body_pa: f64,
     pub p_act_pa: f64,
     /// Moment of weights and forces about the cell \[N·m\].
@@ -157,7 +157,7 @@ impl Cell {
     }
 
     /// Curvature at which actuator, body and loads balance.
-    pub(super) fn solve(&self, acting: &Acting, memory: &CellMemory) -> Option<f64> {
+    pub(super) fn solve(&self, acting: &CellLoads, memory: &CellMemory) -> Option<f64> {
         match &self.drive {
             Some(drive) if drive.strength * acting.p_act_pa > SLACK_PA => {
                 let (low, high) = drive.range();
@@ -172,7 +172,7 @@ impl Cell {
     }
 
     /// Curvature at a coordinate, and the weighted moment that is left: N ∂(κD)/∂κ + M_load − M_wall.
-    fn imbalance(&self, drive: &Drive, a: f64, acting: &Acting, memory: &CellMemory) -> (f64, f64) {
+    fn imbalance(&self, drive: &Drive, a: f64, acting: &CellLoads, memory: &CellMemory) -> (f64, f64) {
         let pull = drive.at(a, acting.p_act_pa);
         let mut kappa = pull.contraction / pull.arm;
         let mut tension = 0.0;

@@ -4,7 +4,7 @@ use super::Truth;
 use super::robot::TrueRobot;
 use compare::diagnosis::{BENCH_TEST, BENCH_TESTS};
 use compare::error::CompareError;
-use compare::study::generate::Scatter;
+use compare::study::generate::NormalNumbers;
 use data::MeasuredValue;
 
 /// Line load of the tensile test \[N/m\]: what a muscle or a pouch carries at some 20 kPa.
@@ -20,7 +20,7 @@ const STEP_RAD: f64 = 1e-3;
 /// Results of tests by their names, each with its error.
 pub(crate) fn bench_tests(truth: &Truth, names: &[String]) -> Result<Vec<MeasuredValue>, CompareError> {
     let robot = truth.robot()?;
-    let mut scatter = Scatter::new(truth.seed ^ 0xFAB);
+    let mut scatter = NormalNumbers::new(truth.seed ^ 0xFAB);
     let mut all = Vec::new();
     for (effect, key) in BENCH_TESTS.iter().filter(|t| names.iter().any(|n| n == t.name)).flat_map(|t| t.parameters) {
         let Some(parameter) =

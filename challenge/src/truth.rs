@@ -4,7 +4,7 @@ use super::effects::{ALSO, HIDDEN, HiddenEffect, Laws, OUTSIDE, by_name};
 use super::measure::{Measurement, measure};
 use super::robot::TrueRobot;
 use compare::error::CompareError;
-use compare::study::generate::{Generator, HoldScatter, Scatter};
+use compare::study::generate::{Generator, HoldScatter, NormalNumbers};
 use data::Dataset;
 use models::{Scenario, shipped};
 use serde::{Deserialize, Serialize};
@@ -69,13 +69,13 @@ pub struct Truth {
 }
 
 /// Random numbers of one dataset: a separate stream for every (seed, index).
-pub struct Draw(Scatter);
+pub struct Draw(NormalNumbers);
 
 impl Draw {
     /// Stream number `index` of a seed.
     pub fn new(seed: u64, index: u64) -> Draw {
         // Steps of an odd constant (2⁶⁴ over the golden ratio) keep neighbouring streams far apart.
-        Draw(Scatter::new(seed.wrapping_add(index.wrapping_add(1).wrapping_mul(0x9E37_79B9_7F4A_7C15))))
+        Draw(NormalNumbers::new(seed.wrapping_add(index.wrapping_add(1).wrapping_mul(0x9E37_79B9_7F4A_7C15))))
     }
 
     /// A uniform random number in [low, high).

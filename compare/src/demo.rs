@@ -67,7 +67,7 @@ pub fn demo(progress: &mut Progress) -> Result<Demo, CompareError> {
     let (robot, data) = (textbook_scenario(ROBOT[0])?, Evidence::read(ROBOT[1])?);
     progress("a model next to markers", Some(0.0));
     let compared = compare_all(&[Contender::as_given(&robot)], &data, &Default::default(), Some(Knob::Bending))?;
-    let path = Path { shipped: shipped_scenario(ROBOT[0])?, data: &data, left_out: left_out(&robot)? };
+    let path = DemoPath { shipped: shipped_scenario(ROBOT[0])?, data: &data, left_out: left_out(&robot)? };
     let candidates = path.candidates(&robot)?;
     let options = Options { keep_bending: true, next_experiment: false, ..Options::default() };
     let diagnosis = diagnose(&robot, std::slice::from_ref(&data), &options, &mut part(progress, [0.1, 0.7]))?;
@@ -92,13 +92,13 @@ fn left_out(robot: &Scenario) -> Result<Evidence, CompareError> {
     Ok(Evidence::of(dataset, Some(about)))
 }
 
-struct Path<'d> {
+struct DemoPath<'d> {
     shipped: Scenario,
     data: &'d Evidence,
     left_out: Evidence,
 }
 
-impl Path<'_> {
+impl DemoPath<'_> {
     fn with(&self, base: &Scenario, effect: &str) -> Result<(Scenario, Mechanism), CompareError> {
         let own = self.shipped.effects.iter().find(|e| e.name == effect);
         let model = own.map_or(base.clone(), |e| base.with_effect(&e.name, &e.values));

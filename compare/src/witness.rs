@@ -12,7 +12,7 @@
 //! is least for the candidate that spends it as they do. **Validity**: the runs are models too, with assumed numbers; a ledger
 //! compares energies and not their slopes. It speaks for or against a candidate, it proves nothing.
 
-use crate::diagnosis::{Answer, Diagnosis, ParameterValue, Ranked, Standing, with_fitted};
+use crate::diagnosis::{Diagnosis, EffectAnswer, ParameterValue, Ranked, Standing, with_fitted};
 use crate::error::CompareError;
 use crate::fit::numbers::{largest, least, mean, sort_by};
 use crate::moment::{CurvePoint, at_turn, degrees};
@@ -154,9 +154,9 @@ fn cases(d: &Diagnosis, scenario: &Scenario) -> ([Scenario; 2], Vec<(String, Sce
     let b = d.base.bending_with_added_nm2.get(level).copied();
     let has_ledger = |r: &Ranked| !r.group.is_nuisance();
     // In addition to the stated set, single effects: their ledgers show what each of them does.
-    let wanted = |a: &Answer| a.helps() && (a.standing != Standing::Other || a.effects.len() == 1);
+    let wanted = |a: &EffectAnswer| a.helps() && (a.standing != Standing::Other || a.effects.len() == 1);
     let answers = d.answers().into_iter().filter(|a| wanted(a) && a.effects.iter().any(|(r, _)| has_ledger(r)));
-    let candidate = |a: Answer| {
+    let candidate = |a: EffectAnswer| {
         let name = a.effects.iter().map(|(r, _)| format!("+ {}", r.effect)).collect::<Vec<_>>().join(" ");
         (name, a.on_with(scenario, level, has_ledger), a.standing != Standing::Other)
     };

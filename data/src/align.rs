@@ -5,7 +5,7 @@ use crate::error::{DataError, Result};
 use crate::header::Pressures;
 use crate::lost::fill;
 use crate::policy;
-use crate::streams::{Recorder, Sample, Segment, Stream, are_near, merged};
+use crate::streams::{HoldSegment, Recorder, SampleSums, Stream, are_near, merged};
 use crate::units::kpa;
 
 /// Samples kept per (run, hold, marker): enough to see creep inside a hold, few enough for a dense noise model.
@@ -18,7 +18,7 @@ pub(crate) fn align(
     recorder: &Recorder,
     stations_m: &[Option<f64>],
 ) -> Result<Dataset> {
-    let grid = Grid::new(recorder)?;
+    let grid = HoldGrid::new(recorder)?;
     let order = marker_order(stations_m);
     let samples = grid.common_samples();
     let holds = grid.holds(samples, recorder.more_channels);
@@ -32,7 +32,7 @@ pub(crate) fn align(
             let is_lost = |marker: &usize| bins[*marker].is_none();
             lost.extend((0..order.len()).filter(is_lost).map(|marker| [run, hold, marker]));
             for sample in 0..samples {
-                let place = |bins: &Vec<Sample>| bins[sample].place();
+                let place = |bins: &Vec<SampleSums>| bins[sample].place();
                 let places = bins.iter().map(|bins| bins.as_ref().map_or([0.0; 3], place));
                 coordinates_m.extend(places.flat_map(|place| place.into_iter().take(axes)));
                 let readings = bins.iter().flatten().map(|bins| bins[sample].gauge_pa());
@@ -92,34 +92,34 @@ fn marker_order(stations_m: &[Option<f64>]) -> Vec<usize> {
 }
 
 /// Every stream, and which of its segments is which hold of the protocol.
-struct Grid<'a> {
+struct HoldGrid<'a> {
     /// `[run][marker]`
     streams: Vec<Vec<&'a Stream>>,
     /// `[run][marker][hold]`; `None` where the marker was lost.
-    segments: Vec<Vec<Vec<Option<&'a Segment>>>>,
+    segments: Vec<Vec<Vec<Option<&'a HoldSegment>>>>,
     /// The stream with the most holds: the holds of the protocol.
-    reference: &'a [Segment],
+    reference: &'a [HoldSegment],
 }
 
-impl<'a> Grid<'a> {
-    fn new(recorder: &'a Recorder) -> Result<Grid<'a>> {
+impl<'a> HoldGrid<'a> {
+    fn new(recorder: &'a Recorder) -> Result<HoldGrid<'a>> {
         let streams = by_run_and_marker(recorder)?;
         let held = |stream: &&&Stream| stream.segments.len();
         // The first of the fullest.
         let fullest: &Stream = streams.iter().flatten().rev().max_by_key(held).unwrap_or(&streams[0][0]);
-        let reference: &[Segment] = &fullest.segments;
+        let reference: &[HoldSegment] = &fullest.segments;
         let mut segments = Vec::with_capacity(streams.len());
         for run in &streams {
             let mut matched = Vec::with_capacity(run.len());
             for stream in run {
-                let unlike = |surplus: &Segment| {
+                let unlike = |surplus: &HoldSegment| {
                     let [own, other] = [stream, fullest].map(|stream| recorder.words(stream));
                     let message = format!("{own} has a hold that {other} has not: {}", describe(surplus));
                     recorder.fault(message, SAME_HOLDS, surplus.first_line)
                 };
                 matched.push(match_holds(reference, &stream.segments).map_err(unlike)?);
             }
-            let is_unseen = |hold: &usize| matched.iter().all(|of: &Vec<Option<&Segment>>| of[*hold].is_none());
+            let is_unseen = |hold: &usize| matched.iter().all(|of: &Vec<Option<&HoldSegment>>| of[*hold].is_none());
             if let Some(hold) = (0..reference.len()).find(is_unseen) {
                 let [own, other] = [run[0], fullest].map(|stream| recorder.words(stream));
                 let message = format!("{own} lacks a hold that {other} has: {}", describe(&reference[hold]));
@@ -128,13 +128,13 @@ impl<'a> Grid<'a> {
             check_not_run_together(recorder, run, &matched)?;
             segments.push(matched);
         }
-        let mut grid = Grid { streams, segments, reference };
+        let mut grid = HoldGrid { streams, segments, reference };
         grid.drop_glimpses();
         Ok(grid)
     }
 
     /// Segments of one hold in all runs and markers.
-    fn of_hold(&self, hold: usize) -> impl Iterator<Item = (usize, &'a Segment)> + '_ {
+    fn of_hold(&self, hold: usize) -> impl Iterator<Item = (usize, &'a HoldSegment)> + '_ {
         let runs = self.segments.iter().enumerate();
         runs.flat_map(move |(run, markers)| markers.iter().filter_map(move |holds| Some((run, holds[hold]?))))
     }
@@ -215,7 +215,10 @@ fn absent_marker(recorder: &Recorder, run: usize, marker: usize) -> DataError {
 
 /// Which segment of `stream` is which of `reference`: in order if they agree in order, else each by pressures (nearest
 /// within tolerance), phase and occurrence; `None` where the stream has none. An error is a segment too many.
-fn match_holds<'s>(reference: &[Segment], stream: &'s [Segment]) -> Result<Vec<Option<&'s Segment>>, &'s Segment> {
+fn match_holds<'s>(
+    reference: &[HoldSegment],
+    stream: &'s [HoldSegment],
+) -> Result<Vec<Option<&'s HoldSegment>>, &'s HoldSegment> {
     let in_order = reference.len() == stream.len() && reference.iter().zip(stream).all(|(a, b)| alike(a, b));
     if in_order {
         return Ok(stream.iter().map(Some).collect());
@@ -231,11 +234,11 @@ fn match_holds<'s>(reference: &[Segment], stream: &'s [Segment]) -> Result<Vec<O
 }
 
 /// Same phase, and pressures that can be two readings of one set point, each a tolerance away from it.
-fn alike(a: &Segment, b: &Segment) -> bool {
+fn alike(a: &HoldSegment, b: &HoldSegment) -> bool {
     a.phase == b.phase && are_near(a.means_pa(), b.means_pa(), 2.0)
 }
 
-fn describe(segment: &Segment) -> String {
+fn describe(segment: &HoldSegment) -> String {
     let [body, act, ref more @ ..] = segment.means_pa().map(kpa);
     let used = more.iter().rposition(|p| *p != 0.0).map_or(0, |last| last + 1);
     let act = more[..used].iter().fold(format!("{act:.1}"), |all, p| format!("{all}/{p:.1}"));
@@ -247,10 +250,10 @@ const SAME_HOLDS: &str = "every run needs the same holds (pressures, phase, numb
                           the pressures are steady, and put other protocols into files of their own";
 
 /// A marker that was lost in a hold between two equal ones has one long hold in place of both.
-fn check_not_run_together(recorder: &Recorder, run: &[&Stream], matched: &[Vec<Option<&Segment>>]) -> Result<()> {
+fn check_not_run_together(recorder: &Recorder, run: &[&Stream], matched: &[Vec<Option<&HoldSegment>>]) -> Result<()> {
     let begin_s = |hold: usize| {
         let seen = matched.iter().filter_map(|holds| holds[hold]);
-        seen.map(Segment::first_t_s).fold(f64::INFINITY, f64::min)
+        seen.map(HoldSegment::first_t_s).fold(f64::INFINITY, f64::min)
     };
     let begins_s: Vec<f64> = (0..matched[0].len()).map(begin_s).collect();
     for (stream, holds) in run.iter().zip(matched).filter(|(_, holds)| holds.iter().any(Option::is_none)) {
@@ -268,7 +271,7 @@ fn check_not_run_together(recorder: &Recorder, run: &[&Stream], matched: &[Vec<O
 }
 
 /// Consecutive samples in `count` bins of (nearly) equal size.
-fn bins(samples: &[Sample], count: usize) -> Vec<Sample> {
+fn bins(samples: &[SampleSums], count: usize) -> Vec<SampleSums> {
     let cut = |bin: usize| bin * samples.len() / count;
     (0..count).map(|bin| merged(&samples[cut(bin)..cut(bin + 1)])).collect()
 }

@@ -1,7 +1,7 @@
 //! What people and programs write into a cell: numbers with a point or a comma, words for nothing, durations, labels.
 
 use crate::error::{DataError, Result};
-use crate::lines::{KeptLine, Line};
+use crate::lines::{KeptLine, TextLine};
 use std::collections::HashMap;
 use std::path::Path;
 
@@ -66,7 +66,7 @@ pub(crate) struct Decimals {
 
 impl Decimals {
     /// The number of a cell; `allowed`: a comma may be in it (it does not separate cells).
-    pub(crate) fn number(&mut self, text: &str, allowed: bool, line: &Line) -> Result<Option<f64>> {
+    pub(crate) fn number(&mut self, text: &str, allowed: bool, line: &TextLine) -> Result<Option<f64>> {
         if !(allowed && text.contains(',')) {
             let value = text.parse().ok();
             self.point |= allowed && text.contains('.') && value.is_some();
@@ -119,7 +119,7 @@ pub(crate) fn no_number(text: &str, expected: &str, more: &str) -> [String; 2] {
     [message, format!("type a plain number such as 12.5 ({unit}), or delete the row{more}")]
 }
 
-fn thousands(line: &Line, text: &str) -> DataError {
+fn thousands(line: &TextLine, text: &str) -> DataError {
     let (point, whole) = (text.replace(',', "."), text.replace(',', ""));
     let message = format!(
         "\"{text}\" can be read as {point} (decimal comma) or as {whole} (comma of thousands), and so can every number with a comma here"
@@ -128,7 +128,7 @@ fn thousands(line: &Line, text: &str) -> DataError {
     line.fault(message, help)
 }
 
-fn both(line: &Line, text: &str) -> DataError {
+fn both(line: &TextLine, text: &str) -> DataError {
     let (point, whole) = (text.replace(',', "."), text.replace([',', '.'], ""));
     let message = format!("points and commas both stand in numbers: \"{text}\" can be read as {point} or as {whole}");
     let help = "write all decimals alike, and no commas of thousands";
@@ -204,7 +204,7 @@ mod tests {
 
     #[test]
     fn a_comma_is_decimal_only_where_it_cannot_be_of_thousands() {
-        let line = Line { file: "f", number: 3, start: 0, text: "", ended: true };
+        let line = TextLine { file: "f", number: 3, start: 0, text: "", ended: true };
         let read = |cells: &[&str]| {
             let mut decimals = Decimals::default();
             let read = cells.iter().map(|c| decimals.number(c, true, &line)).collect::<Result<Vec<_>, _>>();

@@ -3,8 +3,8 @@
 use crate::about::Provenance;
 use crate::cells::{no_number, with_comma};
 use crate::error::{DataError, Result};
-use crate::lines::{KeptLine, Line, Lines};
-use crate::units::Measured;
+use crate::lines::{KeptLine, LineReader, TextLine};
+use crate::units::MeasuredQuantity;
 use spelling::units::Unit;
 
 /// A column that a kind of table may have.
@@ -14,13 +14,18 @@ pub struct Field {
     pub base: &'static str,
     /// Name with the unit that is usual, for remedies.
     pub expected: &'static str,
-    dimension: Option<Measured>,
+    dimension: Option<MeasuredQuantity>,
     /// Whether a table of this kind always has it.
     pub needed: bool,
 }
 
 /// A number with a unit in its name.
-pub(crate) const fn field(base: &'static str, expected: &'static str, dimension: Measured, needed: bool) -> Field {
+pub(crate) const fn field(
+    base: &'static str,
+    expected: &'static str,
+    dimension: MeasuredQuantity,
+    needed: bool,
+) -> Field {
     Field { base, expected, dimension: Some(dimension), needed }
 }
 
@@ -83,14 +88,14 @@ pub(crate) fn meaning(name: &str, fields: &[Field]) -> Option<(usize, Ending)> {
 }
 
 #[derive(Debug, Clone)]
-pub(crate) struct Column {
+pub(crate) struct SheetColumn {
     pub index: usize,
     pub unit: Option<Unit>,
     /// It is called `y_down_…`: the sign of its numbers is turned on reading.
     pub turned: bool,
 }
 
-impl Column {
+impl SheetColumn {
     /// A number of the column, with its unit converted by `si` and its sign turned; `None` if it is not finite.
     pub(crate) fn si(&self, value: f64, si: impl Fn(Unit, f64) -> f64) -> Option<f64> {
         let si = self.unit.map_or(value, |unit| si(unit, value));
@@ -125,7 +130,7 @@ pub(crate) struct Head {
 
 impl Head {
     /// The comments above the header line, and that line; `None` at the end of the file.
-    pub(crate) fn read(lines: &mut Lines) -> Result<(Vec<Note>, Option<Head>)> {
+    pub(crate) fn read(lines: &mut LineReader) -> Result<(Vec<Note>, Option<Head>)> {
         let (mut notes, mut said) = (Vec::new(), None);
         while let Some(line) = lines.next_filled()? {
             let text = line.text.trim_start();
@@ -141,7 +146,7 @@ impl Head {
         Ok((notes, None))
     }
 
-    fn of(line: &Line, said: Option<u8>) -> Head {
+    fn of(line: &TextLine, said: Option<u8>) -> Head {
         let count = |delimiter: &u8| line.text.bytes().filter(|byte| byte == delimiter).count();
         let found = || [b'\t', b';', b','].into_iter().max_by_key(count).unwrap_or(b',');
         let delimiter = said.unwrap_or_else(found).into();
@@ -184,12 +189,12 @@ impl Head {
     }
 
     /// The table with its columns by field.
-    pub(crate) fn sheet(self, fields: &'static [Field]) -> Result<Sheet> {
-        let mut at: Vec<Option<Column>> = vec![None; fields.len()];
+    pub(crate) fn sheet(self, fields: &'static [Field]) -> Result<TableSheet> {
+        let mut at: Vec<Option<SheetColumn>> = vec![None; fields.len()];
         for (index, name) in self.names.iter().enumerate() {
             let Some((field, Ending::Known(unit))) = meaning(name, fields) else { continue };
             let turned = is_down(&name.to_lowercase());
-            if let Some(first) = at[field].replace(Column { index, unit, turned }) {
+            if let Some(first) = at[field].replace(SheetColumn { index, unit, turned }) {
                 let first = &self.names[first.index];
                 let message = if first.eq_ignore_ascii_case(name) {
                     format!("column {first} is there twice")
@@ -200,7 +205,7 @@ impl Head {
                 return Err(self.fault(index, message, help));
             }
         }
-        Ok(Sheet { fields, head: self, comma: false, at })
+        Ok(TableSheet { fields, head: self, comma: false, at })
     }
 }
 
@@ -242,16 +247,16 @@ pub(crate) fn provenance(notes: &[Note]) -> Result<Provenance> {
 }
 
 #[derive(Debug, Clone)]
-pub(crate) struct Sheet {
+pub(crate) struct TableSheet {
     pub fields: &'static [Field],
     pub head: Head,
     /// Decimals may be written with a comma.
     pub comma: bool,
     /// The column of every field; `None` for those that are not there.
-    pub at: Vec<Option<Column>>,
+    pub at: Vec<Option<SheetColumn>>,
 }
 
-impl Sheet {
+impl TableSheet {
     pub(crate) fn has(&self, field: usize) -> bool {
         self.at[field].is_some()
     }
@@ -280,7 +285,7 @@ impl Sheet {
     }
 
     /// Hands the rows below the header to `take`; comments are passed over.
-    pub(crate) fn each_row(&self, lines: &mut Lines, mut take: impl FnMut(&TableRow) -> Result<()>) -> Result<()> {
+    pub(crate) fn each_row(&self, lines: &mut LineReader, mut take: impl FnMut(&TableRow) -> Result<()>) -> Result<()> {
         while let Some(line) = lines.next_filled()? {
             if !line.text.trim_start().starts_with('#') {
                 take(&self.row(line)?)?;
@@ -289,7 +294,7 @@ impl Sheet {
         Ok(())
     }
 
-    fn row<'a>(&'a self, line: Line<'a>) -> Result<TableRow<'a>> {
+    fn row<'a>(&'a self, line: TextLine<'a>) -> Result<TableRow<'a>> {
         let delimiter = self.head.delimiter;
         let cells: Vec<&str> = line.text.split(delimiter).map(|cell| cell.trim().trim_matches('"').trim()).collect();
         let (found, names) = (cells.len(), self.head.names.len());
@@ -305,8 +310,8 @@ impl Sheet {
 }
 
 pub(crate) struct TableRow<'a> {
-    pub sheet: &'a Sheet,
-    pub line: Line<'a>,
+    pub sheet: &'a TableSheet,
+    pub line: TextLine<'a>,
     cells: Vec<&'a str>,
 }
 
@@ -335,7 +340,7 @@ impl TableRow<'_> {
     /// A fault of one cell, with the bytes of the cell in the file.
     pub(crate) fn fault(&self, field: usize, message: impl Into<String>, help: impl Into<String>) -> DataError {
         let error = self.line.fault(message, help);
-        let Some(Column { index, .. }) = self.sheet.at[field] else { return error };
+        let Some(SheetColumn { index, .. }) = self.sheet.at[field] else { return error };
         let cell = self.cells[index];
         let mut error = error.in_column(&self.sheet.head.names[index], Some(cell));
         let start = self.line.start + (cell.as_ptr() as usize - self.line.text.as_ptr() as usize);

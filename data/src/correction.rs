@@ -13,16 +13,16 @@ use crate::cells::label;
 use crate::columns::{Field, Head, Note, field, needed, plain};
 use crate::dataset::{Dataset, Hold, Phase};
 use crate::error::{DataError, Result};
-use crate::lines::Lines;
+use crate::lines::LineReader;
 use crate::policy;
-use crate::units::{Measured, kpa};
+use crate::units::{MeasuredQuantity, kpa};
 
 const FIELDS: [Field; 6] = [
     plain("marker", true),
-    field("p_body", "p_body_kpa", Measured::Pressure, true),
-    field("p_act", "p_act_kpa", Measured::Pressure, true),
-    field("dx", "dx_mm", Measured::Length, true),
-    field("dy", "dy_mm", Measured::Length, true),
+    field("p_body", "p_body_kpa", MeasuredQuantity::Pressure, true),
+    field("p_act", "p_act_kpa", MeasuredQuantity::Pressure, true),
+    field("dx", "dx_mm", MeasuredQuantity::Length, true),
+    field("dy", "dy_mm", MeasuredQuantity::Length, true),
     plain("phase", false),
 ];
 const MARKER: usize = 0;
@@ -33,7 +33,7 @@ const DY: usize = 4;
 const PHASE: usize = 5;
 
 #[derive(Debug, Clone, PartialEq)]
-struct Moved {
+struct MarkerShift {
     marker: String,
     phase: String,
     body_pa: f64,
@@ -51,7 +51,7 @@ pub struct CorrectionTable {
     /// SHA-256 of the data of the fit.
     pub data_sha256: Vec<String>,
     /// In order of pressure.
-    rows: Vec<Moved>,
+    rows: Vec<MarkerShift>,
 }
 
 /// Reads a correction.
@@ -59,7 +59,7 @@ pub struct CorrectionTable {
 /// # Errors
 /// A table of another kind, a cell that is not a number: with file, line and remedy.
 pub fn parse_correction(file: &str, text: &str) -> Result<CorrectionTable> {
-    let mut lines = Lines::of_text(file, text);
+    let mut lines = LineReader::of_text(file, text);
     let (notes, head) = Head::read(&mut lines)?;
     let help = format!("give a table that `ibr add … --base … --out correction.csv` wrote: {}", needed(&FIELDS));
     let Some(head) = head else { return Err(DataError::of(file, "the file is empty", help)) };
@@ -73,7 +73,7 @@ pub fn parse_correction(file: &str, text: &str) -> Result<CorrectionTable> {
         let number = |field: usize| row.number(field).map(Option::unwrap_or_default);
         let (marker, phase) = (label(row.text(MARKER)).to_string(), row.text(PHASE).to_lowercase());
         let (body_pa, act_pa, d_m) = (number(P_BODY)?, number(P_ACT)?, [number(DX)?, number(DY)?]);
-        rows.push(Moved { marker, phase, body_pa, act_pa, d_m });
+        rows.push(MarkerShift { marker, phase, body_pa, act_pa, d_m });
         Ok(())
     })?;
     rows.sort_by(|a, b| a.act_pa.total_cmp(&b.act_pa));
@@ -103,12 +103,12 @@ impl CorrectionTable {
 
     fn between(&self, hold: &Hold, marker: &str) -> Result<[f64; 2]> {
         let body_pa = hold.p_body_pa;
-        let near = |row: &&Moved| (row.body_pa - body_pa).abs() <= policy::tolerance_body_pa(body_pa);
+        let near = |row: &&MarkerShift| (row.body_pa - body_pa).abs() <= policy::tolerance_body_pa(body_pa);
         let phase = if hold.phase == Phase::Unload { "unload" } else { "load" };
-        let in_phase = |row: &&Moved| row.phase.is_empty() || row.phase == phase;
+        let in_phase = |row: &&MarkerShift| row.phase.is_empty() || row.phase == phase;
         let of_marker = self.rows.iter().filter(|row| row.marker == marker);
-        let own: Vec<&Moved> = of_marker.filter(near).collect();
-        let one_way: Vec<&Moved> = own.iter().copied().filter(in_phase).collect();
+        let own: Vec<&MarkerShift> = of_marker.filter(near).collect();
+        let one_way: Vec<&MarkerShift> = own.iter().copied().filter(in_phase).collect();
         // The highest pressure of a way back is the end of the way there.
         let own = if one_way.is_empty() { own } else { one_way };
         let refused = |message: String| {

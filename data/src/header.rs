@@ -1,9 +1,9 @@
 //! The header line: which column holds which quantity, in which unit.
 
-use crate::columns::{Field, Head, Sheet, field, meaning, needed, plain};
+use crate::columns::{Field, Head, TableSheet, field, meaning, needed, plain};
 use crate::error::{DataError, Result};
-use crate::lines::Lines;
-use crate::units::Measured;
+use crate::lines::LineReader;
+use crate::units::MeasuredQuantity;
 
 pub(crate) const RUN: usize = 0;
 pub(crate) const ACTUATOR: usize = 1;
@@ -30,28 +30,28 @@ pub(crate) type Pressures = [f64; PRESSURES.len()];
 pub(crate) const QUANTITIES: [Field; 15] = [
     plain("run", true),
     plain("actuator", true),
-    field("t", "t_s", Measured::Time, true),
-    field("p_body", "p_body_kpa", Measured::Pressure, true),
-    field("p_act", "p_act_kpa", Measured::Pressure, true),
+    field("t", "t_s", MeasuredQuantity::Time, true),
+    field("p_body", "p_body_kpa", MeasuredQuantity::Pressure, true),
+    field("p_act", "p_act_kpa", MeasuredQuantity::Pressure, true),
     plain("phase", true),
     plain("marker", true),
-    field("x", "x_mm", Measured::Length, true),
-    field("y", "y_mm", Measured::Length, true),
-    field("s", "s_mm", Measured::Length, false),
-    field("p_gauge", "p_gauge_kpa", Measured::Pressure, false),
-    field("z", "z_mm", Measured::Length, false),
-    field("p_act_1", "p_act_1_kpa", Measured::Pressure, false),
-    field("p_act_2", "p_act_2_kpa", Measured::Pressure, false),
-    field("p_act_3", "p_act_3_kpa", Measured::Pressure, false),
+    field("x", "x_mm", MeasuredQuantity::Length, true),
+    field("y", "y_mm", MeasuredQuantity::Length, true),
+    field("s", "s_mm", MeasuredQuantity::Length, false),
+    field("p_gauge", "p_gauge_kpa", MeasuredQuantity::Pressure, false),
+    field("z", "z_mm", MeasuredQuantity::Length, false),
+    field("p_act_1", "p_act_1_kpa", MeasuredQuantity::Pressure, false),
+    field("p_act_2", "p_act_2_kpa", MeasuredQuantity::Pressure, false),
+    field("p_act_3", "p_act_3_kpa", MeasuredQuantity::Pressure, false),
 ];
 
 /// Supply channels beyond the first that have a column.
-pub(crate) fn more_channels(sheet: &Sheet) -> usize {
+pub(crate) fn more_channels(sheet: &TableSheet) -> usize {
     P_MORE.iter().filter(|quantity| sheet.has(**quantity)).count()
 }
 
 /// Reads comment lines and the header line of a marker table.
-pub(crate) fn read_header(lines: &mut Lines) -> Result<Sheet> {
+pub(crate) fn read_header(lines: &mut LineReader) -> Result<TableSheet> {
     let Some(head) = Head::read(lines)?.1 else {
         let help = format!("the first line must name the columns: {}", needed(&QUANTITIES));
         return Err(DataError::of(lines.file(), "the file is empty", help));
@@ -123,8 +123,8 @@ fn listed(Head { names, delimiter, .. }: &Head) -> String {
 mod tests {
     use super::*;
 
-    fn header(text: &str) -> Result<Sheet, DataError> {
-        read_header(&mut Lines::of_text("m.csv", text))
+    fn header(text: &str) -> Result<TableSheet, DataError> {
+        read_header(&mut LineReader::of_text("m.csv", text))
     }
 
     const GOOD: &str = "run,actuator,t_s,p_body_kpa,p_act_kpa,phase,marker,x_mm,y_mm";

@@ -17,7 +17,7 @@ pub type Progress<'a> = &'a mut dyn FnMut(u64, u64);
 
 /// One line of a file, without its line end.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Line<'a> {
+pub(crate) struct TextLine<'a> {
     pub file: &'a str,
     pub number: u64,
     /// Byte offset of the first character in the file.
@@ -27,7 +27,7 @@ pub(crate) struct Line<'a> {
     pub ended: bool,
 }
 
-impl Line<'_> {
+impl TextLine<'_> {
     pub(crate) fn fault(&self, message: impl Into<String>, help: impl Into<String>) -> DataError {
         let mut error = DataError::of(self.file, message, help).at_line(self.number);
         let fault = error.fault_mut();
@@ -52,12 +52,12 @@ pub(crate) struct KeptLine {
 }
 
 impl KeptLine {
-    pub(crate) fn line(&self) -> Line<'_> {
-        Line { file: &self.file, number: self.number, start: self.start, text: &self.text, ended: true }
+    pub(crate) fn line(&self) -> TextLine<'_> {
+        TextLine { file: &self.file, number: self.number, start: self.start, text: &self.text, ended: true }
     }
 }
 
-pub(crate) struct Lines<'a> {
+pub(crate) struct LineReader<'a> {
     reader: BufReader<Box<dyn Read + 'a>>,
     progress: Option<Progress<'a>>,
     file: String,
@@ -68,19 +68,24 @@ pub(crate) struct Lines<'a> {
     next_report: u64,
 }
 
-impl<'a> Lines<'a> {
+impl<'a> LineReader<'a> {
     /// Lines of `reader`; `bytes_total` (0 if unknown) is handed on to `progress` with the bytes read so far.
-    pub(crate) fn new(file: &str, reader: &'a mut dyn Read, bytes_total: u64, progress: Progress<'a>) -> Lines<'a> {
-        Lines { progress: Some(progress), bytes_total, ..Lines::of(file, Box::new(reader)) }
+    pub(crate) fn new(
+        file: &str,
+        reader: &'a mut dyn Read,
+        bytes_total: u64,
+        progress: Progress<'a>,
+    ) -> LineReader<'a> {
+        LineReader { progress: Some(progress), bytes_total, ..LineReader::of(file, Box::new(reader)) }
     }
 
     /// Lines of a text that is at hand.
-    pub(crate) fn of_text(file: &str, text: &'a str) -> Lines<'a> {
-        Lines::of(file, Box::new(text.as_bytes()))
+    pub(crate) fn of_text(file: &str, text: &'a str) -> LineReader<'a> {
+        LineReader::of(file, Box::new(text.as_bytes()))
     }
 
-    fn of(file: &str, reader: Box<dyn Read + 'a>) -> Lines<'a> {
-        Lines {
+    fn of(file: &str, reader: Box<dyn Read + 'a>) -> LineReader<'a> {
+        LineReader {
             reader: BufReader::with_capacity(1 << 16, reader),
             progress: None,
             file: file.to_string(),
@@ -97,7 +102,7 @@ impl<'a> Lines<'a> {
     }
 
     /// The next line that is not blank (whitespace or separators only), or `None` at the end.
-    pub(crate) fn next_filled(&mut self) -> Result<Option<Line<'_>>> {
+    pub(crate) fn next_filled(&mut self) -> Result<Option<TextLine<'_>>> {
         loop {
             let read = self.read_raw()?;
             if read == 0 {
@@ -134,7 +139,7 @@ impl<'a> Lines<'a> {
         Ok(read)
     }
 
-    fn current(&self) -> Result<Line<'_>> {
+    fn current(&self) -> Result<TextLine<'_>> {
         let start = (self.next_byte - self.buffer.len() as u64) as usize;
         let ended = self.buffer.last() == Some(&b'\n');
         let mut bytes = self.buffer.strip_suffix(b"\n").unwrap_or(&self.buffer);
@@ -144,7 +149,7 @@ impl<'a> Lines<'a> {
             return Err(self.cr_only());
         }
         let mark = if self.number == 1 && text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
-        Ok(Line { file: &self.file, number: self.number, start: start + mark, text: &text[mark..], ended })
+        Ok(TextLine { file: &self.file, number: self.number, start: start + mark, text: &text[mark..], ended })
     }
 
     fn unreadable(&self, cause: &str) -> DataError {
@@ -185,7 +190,7 @@ mod tests {
 
     fn texts(mut bytes: &[u8]) -> Vec<(u64, usize, String)> {
         let mut progress = |_, _| ();
-        let mut lines = Lines::new("f", &mut bytes, 0, &mut progress);
+        let mut lines = LineReader::new("f", &mut bytes, 0, &mut progress);
         let mut out = Vec::new();
         while let Some(line) = lines.next_filled().unwrap() {
             out.push((line.number, line.start, line.text.to_string()));
@@ -205,7 +210,7 @@ mod tests {
         let mut calls = Vec::new();
         let mut progress = |done, total| calls.push((done, total));
         let mut reader = bytes.as_slice();
-        let mut lines = Lines::new("f", &mut reader, bytes.len() as u64, &mut progress);
+        let mut lines = LineReader::new("f", &mut reader, bytes.len() as u64, &mut progress);
         while lines.next_filled().unwrap().is_some() {}
         drop(lines);
         let total = bytes.len() as u64;
@@ -217,7 +222,7 @@ mod tests {
         let bytes = vec![b'x'; 3 << 20];
         let mut progress = |_, _| ();
         let mut reader = bytes.as_slice();
-        let error = Lines::new("f", &mut reader, 0, &mut progress).next_filled().unwrap_err();
+        let error = LineReader::new("f", &mut reader, 0, &mut progress).next_filled().unwrap_err();
         assert!(error.message().contains("longer than 1 MiB"), "{error}");
     }
 }

@@ -12,14 +12,14 @@
 
 use std::collections::HashMap;
 
-use crate::columns::{Field, Head, Sheet, TableRow, field, plain};
+use crate::columns::{Field, Head, TableRow, TableSheet, field, plain};
 use crate::dataset::{Dataset, Hold};
 use crate::error::{DataError, Result};
 use crate::header::Pressures;
-use crate::lines::Lines;
+use crate::lines::LineReader;
 use crate::policy;
 use crate::streams::are_near;
-use crate::units::{Measured, kpa};
+use crate::units::{MeasuredQuantity, kpa};
 
 const MARKER: usize = 0;
 const PLACE: [usize; 3] = [1, 2, 3];
@@ -31,15 +31,15 @@ const RUN: usize = 11;
 
 const FIELDS: [Field; 12] = [
     plain("marker", true),
-    field("x", "x_mm", Measured::Length, true),
-    field("y", "y_mm", Measured::Length, true),
-    field("z", "z_mm", Measured::Length, false),
-    field("p_body", "p_body_kpa", Measured::Pressure, false),
-    field("p_act", "p_act_kpa", Measured::Pressure, false),
-    field("p_act_1", "p_act_1_kpa", Measured::Pressure, false),
-    field("p_act_2", "p_act_2_kpa", Measured::Pressure, false),
-    field("p_act_3", "p_act_3_kpa", Measured::Pressure, false),
-    field("t", "t_s", Measured::Time, false),
+    field("x", "x_mm", MeasuredQuantity::Length, true),
+    field("y", "y_mm", MeasuredQuantity::Length, true),
+    field("z", "z_mm", MeasuredQuantity::Length, false),
+    field("p_body", "p_body_kpa", MeasuredQuantity::Pressure, false),
+    field("p_act", "p_act_kpa", MeasuredQuantity::Pressure, false),
+    field("p_act_1", "p_act_1_kpa", MeasuredQuantity::Pressure, false),
+    field("p_act_2", "p_act_2_kpa", MeasuredQuantity::Pressure, false),
+    field("p_act_3", "p_act_3_kpa", MeasuredQuantity::Pressure, false),
+    field("t", "t_s", MeasuredQuantity::Time, false),
     plain("phase", false),
     plain("run", false),
 ];
@@ -68,14 +68,14 @@ impl Predictions {
 /// A column that is missing, a row that belongs to no hold or marker of the data, two predictions of one place, a hold or marker without
 /// a prediction: with file, line and remedy.
 pub fn parse_predictions(file: &str, text: &str, dataset: &Dataset) -> Result<Predictions> {
-    let mut lines = Lines::of_text(file, text);
+    let mut lines = LineReader::of_text(file, text);
     let (_, Some(head)) = Head::read(&mut lines)? else {
         let help = "write columns such as p_act_kpa,marker,x_mm,y_mm";
         return Err(DataError::of(file, "the file is empty", help));
     };
     head.without_unit(&FIELDS, |at| Some(FIELDS[at].needed))?;
     let sheet = head.sheet(&FIELDS)?;
-    let sheet = Sheet { comma: sheet.head.delimiter != ',', ..sheet };
+    let sheet = TableSheet { comma: sheet.head.delimiter != ',', ..sheet };
     if let Some([message, help]) = lacks(&sheet, dataset) {
         return Err(sheet.head.line.line().fault(message, help));
     }
@@ -85,7 +85,7 @@ pub fn parse_predictions(file: &str, text: &str, dataset: &Dataset) -> Result<Pr
 }
 
 /// A column that the data ask for and the table has not, and what to add.
-fn lacks(sheet: &Sheet, dataset: &Dataset) -> Option<[String; 2]> {
+fn lacks(sheet: &TableSheet, dataset: &Dataset) -> Option<[String; 2]> {
     let missing = |field: usize, why: &str| {
         let name = FIELDS[field].expected;
         Some([format!("column {name} is missing{why}"), format!("add {name} with a value in every row")])
@@ -130,7 +130,7 @@ struct Collected<'d> {
 }
 
 impl<'d> Collected<'d> {
-    fn new(dataset: &'d Dataset, sheet: &Sheet) -> Collected<'d> {
+    fn new(dataset: &'d Dataset, sheet: &TableSheet) -> Collected<'d> {
         let sums = vec![Sum::default(); dataset.holds.len() * dataset.markers.len()];
         let pressed = sheet.has(PRESSURES[1]);
         Collected { dataset, pressed, sums, seen: HashMap::new(), last_line: 0 }

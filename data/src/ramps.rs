@@ -3,7 +3,7 @@
 use crate::error::{DataError, Result};
 use crate::header::PRESSURES;
 use crate::rows::lowest_mean_pa;
-use crate::streams::{Recorder, Segment, Stream};
+use crate::streams::{HoldSegment, Recorder, Stream};
 use crate::units::kpa;
 
 /// A hold lasts at least so long \[s\].
@@ -18,7 +18,7 @@ const FEW_ROWS: f64 = 0.2;
 /// Refuses recordings without holds, or with ramps between them, and holds whose mean pressure is below its bounds.
 pub(crate) fn check_kept(recorder: &Recorder) -> Result<()> {
     let segments = || recorder.streams.iter().flat_map(|stream| &stream.segments);
-    let too_low = |segment: &Segment| {
+    let too_low = |segment: &HoldSegment| {
         let mut means = segment.too_low.iter().zip(segment.means_pa()).zip(PRESSURES);
         means.find(|((_, mean), quantity)| *mean < lowest_mean_pa(*quantity)).and_then(|((fault, _), _)| fault.clone())
     };
@@ -35,7 +35,7 @@ pub(crate) fn check_kept(recorder: &Recorder) -> Result<()> {
     (0..recorder.runs.names.len()).try_for_each(|run| no_pieces(recorder, run))
 }
 
-fn is_ramp(segments: &[Segment]) -> bool {
+fn is_ramp(segments: &[HoldSegment]) -> bool {
     let within: f64 = segments.iter().map(|segment| (segment.ends_pa[1] - segment.ends_pa[0]).abs()).sum();
     let between: f64 = segments.windows(2).map(|pair| (pair[1].p_act_pa() - pair[0].p_act_pa()).abs()).sum();
     segments.len() >= FEWEST && within > RAMP * between
@@ -55,7 +55,7 @@ fn no_pieces(recorder: &Recorder, run: usize) -> Result<()> {
 }
 
 /// Segments too short to be holds, compared with the one that contains the middle row.
-fn pieces(stream: &Stream) -> impl Iterator<Item = &Segment> {
+fn pieces(stream: &Stream) -> impl Iterator<Item = &HoldSegment> {
     let mut rows: Vec<u64> = stream.segments.iter().map(|segment| segment.rows).collect();
     rows.sort_unstable();
     let half = rows.iter().sum::<u64>() / 2;
@@ -65,7 +65,7 @@ fn pieces(stream: &Stream) -> impl Iterator<Item = &Segment> {
         before > half
     });
     let usual = middle.copied().unwrap_or_default() as f64;
-    let short = move |segment: &&Segment| {
+    let short = move |segment: &&HoldSegment| {
         segment.last_t_s() - segment.first_t_s() < LEAST_HOLD_S && (segment.rows as f64) < FEW_ROWS * usual
     };
     stream.segments.iter().filter(short)

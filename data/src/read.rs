@@ -27,7 +27,7 @@ use crate::cells::stem;
 use crate::dataset::Dataset;
 use crate::error::{DataError, Result};
 use crate::header::{ACTUATOR, read_header};
-use crate::lines::{Lines, Progress};
+use crate::lines::{LineReader, Progress};
 use crate::policy;
 use crate::ramps::check_kept;
 use crate::rows::{Cells, RowReader};
@@ -83,9 +83,9 @@ pub(crate) fn read_markers_of(path: &Path, options: ReadOptions, progress: Progr
 /// assert_eq!((read.holds[1].p_act_pa, read.xy(0, 1, 0, 0)), (20e3, [0.31, 0.09]));
 /// ```
 pub fn parse_markers(file: &str, reader: &mut dyn Read, options: ReadOptions, progress: Progress) -> Result<Dataset> {
-    let mut lines = Lines::new(file, reader, options.bytes_total, progress);
+    let mut lines = LineReader::new(file, reader, options.bytes_total, progress);
     let mut reader = RowReader::new(read_header(&mut lines)?);
-    let (mut kind, mut recorder) = (Kind::default(), Recorder::of(&reader.sheet));
+    let (mut kind, mut recorder) = (ActuatorFilter::default(), Recorder::of(&reader.sheet));
     kind.wanted = options.actuator.map(str::to_lowercase);
     while let Some(line) = lines.next_filled()? {
         reader.split(&line)?;
@@ -148,13 +148,13 @@ fn sits_at_base(cells: Cells, about: Option<&About>) -> bool {
 
 /// Which actuator kind is read, and which others were seen.
 #[derive(Default)]
-struct Kind {
+struct ActuatorFilter {
     wanted: Option<String>,
     found: Option<String>,
     seen: BTreeSet<String>,
 }
 
-impl Kind {
+impl ActuatorFilter {
     /// Whether a row is of the kind that is read.
     fn takes(&mut self, cells: Cells) -> Result<bool> {
         let cell = cells.actuator()?;
@@ -178,7 +178,7 @@ impl Kind {
     }
 }
 
-fn no_rows(file: &str, kind: &Kind, lost_frames: u64) -> DataError {
+fn no_rows(file: &str, kind: &ActuatorFilter, lost_frames: u64) -> DataError {
     if lost_frames > 0 {
         let help = "fill in x and y where the marker was seen";
         let message = format!("none of the {lost_frames} rows has a position");

@@ -1,20 +1,20 @@
 //! One line of the table as one checked observation in SI units.
 
 use crate::cells::{Decimals, is_nothing, label, no_number, with_comma};
-use crate::columns::Sheet;
+use crate::columns::TableSheet;
 use crate::dataset::Phase;
 use crate::error::{DataError, Result};
 use crate::header::{
     ACTUATOR, GAUGE, MARKER, P_BODY, PHASE, PRESSURES, Pressures, QUANTITIES, RUN, STATION, TIME, X, Y, Z,
 };
-use crate::lines::Line;
+use crate::lines::TextLine;
 use crate::policy;
 use spelling::units::{Range, Unit};
 use std::ops::Deref;
 
 /// One observation; texts borrow from the reader.
 #[derive(Debug)]
-pub(crate) struct Row<'a> {
+pub(crate) struct Observation<'a> {
     pub run: &'a str,
     pub marker: &'a str,
     pub phase: Phase,
@@ -30,7 +30,7 @@ pub(crate) struct Row<'a> {
 
 /// Splits lines into cells and cells into observations.
 pub(crate) struct RowReader {
-    pub sheet: Sheet,
+    pub sheet: TableSheet,
     splitter: csv_core::Reader,
     cells: Vec<u8>,
     ends: Vec<usize>,
@@ -70,7 +70,7 @@ pub(crate) fn lowest_mean_pa(quantity: usize) -> f64 {
 }
 
 impl RowReader {
-    pub(crate) fn new(sheet: Sheet) -> RowReader {
+    pub(crate) fn new(sheet: TableSheet) -> RowReader {
         // The line end is already gone; a lone carriage return is then an ordinary character.
         let end = csv_core::Terminator::Any(b'\n');
         let splitter = csv_core::ReaderBuilder::new().delimiter(sheet.head.delimiter as u8).terminator(end).build();
@@ -81,7 +81,7 @@ impl RowReader {
     }
 
     /// Splits one line into cells, to be read as [`Cells`].
-    pub(crate) fn split(&mut self, line: &Line) -> Result<()> {
+    pub(crate) fn split(&mut self, line: &TextLine) -> Result<()> {
         self.cells.resize(self.cells.len().max(line.text.len() + 1), 0);
         self.splitter.reset();
         let (_, _, written, mut count) =
@@ -109,19 +109,19 @@ impl RowReader {
     }
 
     /// Whether the first row begins with its number or a quoted name, before cells that fit the header.
-    fn has_row_name(&mut self, line: &Line) -> bool {
+    fn has_row_name(&mut self, line: &TextLine) -> bool {
         self.shift = 1;
         self.counts_on(line) && Cells { reader: self, line }.phase().is_ok()
     }
 
     /// Whether the first cell is quoted or the number of its row.
-    fn counts_on(&self, line: &Line) -> bool {
+    fn counts_on(&self, line: &TextLine) -> bool {
         let first = self.ends.first().and_then(|end| self.cells.get(..*end)).unwrap_or_default();
         line.text.starts_with('"') || first == self.rows.to_string().as_bytes()
     }
 
     /// Notes how numbers and labels of a line are written.
-    fn listen(&mut self, line: &Line) -> Result<()> {
+    fn listen(&mut self, line: &TextLine) -> Result<()> {
         if self.sheet.head.delimiter != ',' && line.text.contains([',', '.']) {
             let mut decimals = std::mem::take(&mut self.decimals);
             for quantity in (0..QUANTITIES.len()).filter(|quantity| !self.sheet.unit(*quantity).is_empty()) {
@@ -166,7 +166,7 @@ impl RowReader {
         std::str::from_utf8(bytes).unwrap_or_default().trim()
     }
 
-    fn wrong_count(&self, line: &Line, count: usize) -> DataError {
+    fn wrong_count(&self, line: &TextLine, count: usize) -> DataError {
         let expected = self.sheet.head.names.len() + self.shift;
         let more = if count > expected { format!("more than {expected}") } else { count.to_string() };
         let begin = if line.ended { "" } else { "the file ends in the middle of a row: " };
@@ -185,7 +185,7 @@ impl RowReader {
 #[derive(Clone, Copy)]
 pub(crate) struct Cells<'a> {
     pub reader: &'a RowReader,
-    pub line: &'a Line<'a>,
+    pub line: &'a TextLine<'a>,
 }
 
 impl Deref for Cells<'_> {
@@ -230,8 +230,8 @@ impl<'a> Cells<'a> {
         self.text(STATION).parse().ok().map(|value| unit.to_si(value))
     }
 
-    pub(crate) fn row(&self) -> Result<Row<'a>> {
-        Ok(Row {
+    pub(crate) fn row(&self) -> Result<Observation<'a>> {
+        Ok(Observation {
             run: label(self.word(RUN)?),
             marker: label(self.word(MARKER)?),
             phase: self.phase()?,

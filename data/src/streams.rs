@@ -10,14 +10,14 @@ mod segments;
 use std::collections::HashMap;
 
 use crate::cells::Labels;
-use crate::columns::Sheet;
+use crate::columns::TableSheet;
 use crate::error::{DataError, Result};
 use crate::header::{GAUGE, MARKER, PRESSURES, QUANTITIES, RUN, STATION, TIME, X, Y, Z, more_channels};
-use crate::lines::Line;
+use crate::lines::TextLine;
 use crate::policy;
-use crate::rows::{Cells, Row, lowest_mean_pa};
+use crate::rows::{Cells, Observation, lowest_mean_pa};
 use placeholders::Placeholders;
-pub(crate) use segments::{Sample, Segment, Stream, are_near, merged};
+pub(crate) use segments::{HoldSegment, SampleSums, Stream, are_near, merged};
 
 /// Everything kept of a file while it is read.
 #[derive(Debug, Default)]
@@ -45,7 +45,7 @@ pub(crate) struct Recorder {
 
 impl Recorder {
     /// Nothing yet, of a table with this header.
-    pub(crate) fn of(sheet: &Sheet) -> Recorder {
+    pub(crate) fn of(sheet: &TableSheet) -> Recorder {
         Recorder {
             file: sheet.head.line.file.clone(),
             more_channels: more_channels(sheet),
@@ -80,7 +80,7 @@ impl Recorder {
         self.add_to_stream([run, marker], &row, cells)
     }
 
-    fn add_to_stream(&mut self, [run, marker]: [usize; 2], row: &Row, cells: Cells) -> Result<()> {
+    fn add_to_stream(&mut self, [run, marker]: [usize; 2], row: &Observation, cells: Cells) -> Result<()> {
         let index = *self.by_pair.entry((run, marker)).or_insert(self.streams.len());
         if index == self.streams.len() {
             let (first_line, first_t_s, last_t_s) = (cells.line.number, row.t_s, f64::NEG_INFINITY);
@@ -95,7 +95,7 @@ impl Recorder {
                 return Err(too_many_holds(cells.line));
             }
             self.series += 1;
-            stream.segments.push(Segment::new(row, cells.line.number));
+            stream.segments.push(HoldSegment::new(row, cells.line.number));
         }
         if let Some(segment) = stream.segments.last_mut() {
             for (which, (pressure_pa, quantity)) in row.pressures_pa.into_iter().zip(PRESSURES).enumerate() {
@@ -108,7 +108,7 @@ impl Recorder {
         Ok(())
     }
 
-    fn set_station(&mut self, marker: usize, row: &Row, cells: Cells) -> Result<()> {
+    fn set_station(&mut self, marker: usize, row: &Observation, cells: Cells) -> Result<()> {
         if self.stations_m.len() <= marker {
             self.stations_m.resize(marker + 1, None);
         }
@@ -124,7 +124,7 @@ impl Recorder {
     }
 }
 
-fn check_time(stream: &Stream, row: &Row, cells: Cells) -> Result<()> {
+fn check_time(stream: &Stream, row: &Observation, cells: Cells) -> Result<()> {
     if row.t_s > stream.last_t_s {
         return Ok(());
     }
@@ -139,7 +139,7 @@ fn check_time(stream: &Stream, row: &Row, cells: Cells) -> Result<()> {
     Err(cells.fault(TIME, message, help))
 }
 
-fn too_many_holds(line: &Line) -> DataError {
+fn too_many_holds(line: &TextLine) -> DataError {
     let [own, all] = [policy::MOST_HOLDS, policy::MOST_SERIES];
     let message = format!("more than {own} holds in one run, or {all} in all");
     let help = "keep only rows recorded while the pressures are steady; a new hold begins when the phase changes or a \

@@ -3,7 +3,7 @@
 use spelling::units::{Dimension, Unit, units_of};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Measured {
+pub(crate) enum MeasuredQuantity {
     Length,
     Pressure,
     Time,
@@ -16,16 +16,16 @@ const RATIOS: [Unit; 2] = [Unit::new("pct", Dimension::NONE, 1.0, 1e2), Unit::ne
 /// Degrees stay degrees: directions of a test are labels, not angles to compute with.
 const DEGREES: Unit = Unit::new("deg", Dimension::NONE, 1.0, 1.0);
 
-impl Measured {
+impl MeasuredQuantity {
     /// All units of this dimension, the house unit first.
     fn units(self) -> Vec<Unit> {
         match self {
-            Measured::Length => units_of(Dimension::LENGTH).collect(),
-            Measured::Pressure => units_of(Dimension::PRESSURE).collect(),
-            Measured::Time => units_of(Dimension::TIME).collect(),
-            Measured::Force => units_of(Dimension::FORCE).collect(),
-            Measured::Ratio => RATIOS.to_vec(),
-            Measured::Angle => vec![DEGREES],
+            MeasuredQuantity::Length => units_of(Dimension::LENGTH).collect(),
+            MeasuredQuantity::Pressure => units_of(Dimension::PRESSURE).collect(),
+            MeasuredQuantity::Time => units_of(Dimension::TIME).collect(),
+            MeasuredQuantity::Force => units_of(Dimension::FORCE).collect(),
+            MeasuredQuantity::Ratio => RATIOS.to_vec(),
+            MeasuredQuantity::Angle => vec![DEGREES],
         }
     }
 
@@ -38,12 +38,12 @@ impl Measured {
     pub(crate) fn sentence(self) -> String {
         let symbols: Vec<_> = self.units().iter().map(|unit| unit.symbol).collect();
         let word = match self {
-            Measured::Length => "lengths",
-            Measured::Pressure => "pressures",
-            Measured::Time => "times",
-            Measured::Force => "forces",
-            Measured::Ratio => return "strains are in pct (per cent), ratio".into(),
-            Measured::Angle => "directions",
+            MeasuredQuantity::Length => "lengths",
+            MeasuredQuantity::Pressure => "pressures",
+            MeasuredQuantity::Time => "times",
+            MeasuredQuantity::Force => "forces",
+            MeasuredQuantity::Ratio => return "strains are in pct (per cent), ratio".into(),
+            MeasuredQuantity::Angle => "directions",
         };
         format!("{word} are in {}", symbols.join(", "))
     }
@@ -63,13 +63,13 @@ mod tests {
 
     #[test]
     fn units_convert_to_si() {
-        let si = |dimension: Measured, name: &str, value: f64| dimension.unit(name).unwrap().to_si(value);
-        assert_eq!(si(Measured::Length, "mm", 361.0), 0.361);
-        assert_eq!(si(Measured::Length, "cm", 36.0), 0.36);
-        assert_eq!(si(Measured::Pressure, "bar", 0.3), 30_000.0);
-        assert_eq!(si(Measured::Pressure, "mpa", 0.03), 30_000.0);
-        assert!((si(Measured::Pressure, "psi", 1.0) - 4.448_221_615_260_5 / 0.0254_f64.powi(2)).abs() < 1e-9);
-        assert_eq!(si(Measured::Time, "ms", 5000.0), si(Measured::Time, "min", 1.0) / 12.0);
-        assert!(Measured::Length.unit("kpa").is_none());
+        let si = |dimension: MeasuredQuantity, name: &str, value: f64| dimension.unit(name).unwrap().to_si(value);
+        assert_eq!(si(MeasuredQuantity::Length, "mm", 361.0), 0.361);
+        assert_eq!(si(MeasuredQuantity::Length, "cm", 36.0), 0.36);
+        assert_eq!(si(MeasuredQuantity::Pressure, "bar", 0.3), 30_000.0);
+        assert_eq!(si(MeasuredQuantity::Pressure, "mpa", 0.03), 30_000.0);
+        assert!((si(MeasuredQuantity::Pressure, "psi", 1.0) - 4.448_221_615_260_5 / 0.0254_f64.powi(2)).abs() < 1e-9);
+        assert_eq!(si(MeasuredQuantity::Time, "ms", 5000.0), si(MeasuredQuantity::Time, "min", 1.0) / 12.0);
+        assert!(MeasuredQuantity::Length.unit("kpa").is_none());
     }
 }

@@ -26,7 +26,7 @@ pub enum FemError {
     },
     /// What was to be simulated was refused.
     #[error("{}", .0.place())]
-    Refused(Box<Refusal>),
+    Refused(Box<TextFault>),
     /// The problem is inconsistent or a parameter is out of range.
     #[error("{0}")]
     Problem(String),
@@ -84,7 +84,7 @@ fn so_far(time_s: f64, step: u64, done: usize, of: usize) -> String {
 
 /// A fault in the text of a case or a scenario.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Refusal {
+pub struct TextFault {
     /// File, or name of what comes with the program.
     pub file: String,
     /// Whole text of the file, which the message quotes.
@@ -97,10 +97,10 @@ pub struct Refusal {
     pub span: Option<std::ops::Range<usize>>,
 }
 
-impl Refusal {
+impl TextFault {
     /// File, line and fault.
     fn place(&self) -> String {
-        let Refusal { file, message, .. } = self;
+        let TextFault { file, message, .. } = self;
         self.line().map_or_else(|| message.clone(), |line| format!("{file}:{line}: {message}"))
     }
 

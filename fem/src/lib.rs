@@ -42,7 +42,7 @@ pub mod terms;
 mod transient;
 pub mod vec3;
 
-pub use case::Key;
+pub use case::DeclaredKey;
 pub use error::FemError;
 pub use mesh::{Mesh, Part};
 pub use problem::Problem;

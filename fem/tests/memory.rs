@@ -2,7 +2,7 @@
 #![cfg(target_os = "linux")]
 #![allow(clippy::unwrap_used)] // a test that cannot be set up must fail
 
-use fem::session::{Settings, Source, least_bytes, simulate};
+use fem::session::{RunSettings, Source, least_bytes, simulate};
 use std::ops::ControlFlow;
 
 /// Largest memory of this process so far \[bytes\].
@@ -26,7 +26,8 @@ fn what_is_said_before_a_run_is_a_lower_bound_of_what_it_takes() {
     let program = peak();
     for source in [Source::new("tube", &tube), cpam] {
         let folder = tempfile::tempdir().unwrap();
-        let settings = Settings { folder: Some(folder.path().join("run")), end_s: Some(2e-5), ..Settings::default() };
+        let settings =
+            RunSettings { folder: Some(folder.path().join("run")), end_s: Some(2e-5), ..RunSettings::default() };
         let problem = source.load().unwrap().case.problem;
         let (least, most) = (least_bytes(&problem) as f64, MOST_BYTES * problem.mesh.elements() as f64);
         drop(problem);

@@ -6,7 +6,7 @@
 #![allow(clippy::unwrap_used)] // a test that cannot be set up must fail
 
 use fem::mesh::check::check_open;
-use fem::session::{Settings, Source, simulate};
+use fem::session::{RunSettings, Source, simulate};
 use fem::{Mesh, Problem};
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -188,7 +188,7 @@ fn the_open_disc_is_read_and_is_no_chamber() {
 fn inflated(mesh: &str, end_s: f64, settings: &str) -> f64 {
     let pressure = "[chamber.air]\nsmooth_s_kPa = [[0, 0], [0.05, 5]]\n[settings]\nmass_damping_1_s = 100\n";
     let source = shipped(mesh, &format!("{pressure}end_s = {end_s}\n{settings}"));
-    let run = simulate(&source, &Settings::default(), &mut |_, _| ControlFlow::Continue(()));
+    let run = simulate(&source, &RunSettings::default(), &mut |_, _| ControlFlow::Continue(()));
     run.map_err(|error| told(&error)).unwrap().summary.chambers[0].volume_cm3
 }
 

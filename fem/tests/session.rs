@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)] // a test that cannot be set up must fail
 
 use fem::FemError;
-use fem::session::{FeRun, Job, Settings, Source, simulate, simulate_all};
+use fem::session::{FeRun, RunJob, RunSettings, Source, simulate, simulate_all};
 use std::ops::ControlFlow;
 use std::path::Path;
 
@@ -14,8 +14,8 @@ fn small() -> Source {
     Source::new("pillow", &text.replace("output_every_s = 0.005", "output_every_s = 0.002"))
 }
 
-fn into(folder: &Path) -> Settings {
-    Settings { folder: Some(folder.into()), resume: true, keep_end: true, threads: 1, ..Settings::default() }
+fn into(folder: &Path) -> RunSettings {
+    RunSettings { folder: Some(folder.into()), resume: true, keep_end: true, threads: 1, ..RunSettings::default() }
 }
 
 fn go_on(_: &str, _: Option<f64>) -> ControlFlow<()> {
@@ -54,7 +54,7 @@ fn a_run_that_its_caller_stops_goes_on_and_ends_with_the_same_bytes() {
 
 #[test]
 fn without_a_folder_the_files_of_the_end_are_in_memory() {
-    let run = simulate(&small(), &Settings::default(), &mut go_on).unwrap();
+    let run = simulate(&small(), &RunSettings::default(), &mut go_on).unwrap();
     let names: Vec<&str> = run.files.iter().map(|(name, _)| name.as_str()).collect();
     assert!(names == ["summary.json", "picture.png"] && run.folder.is_none() && run.frames().is_empty());
     // Steps are not shortened to meet a moment.
@@ -65,7 +65,7 @@ fn without_a_folder_the_files_of_the_end_are_in_memory() {
 #[test]
 fn the_same_problem_is_run_once_and_found_again() {
     let folder = tempfile::tempdir().unwrap();
-    let job = |what: &str| Job { source: small(), what: what.into(), folder: None };
+    let job = |what: &str| RunJob { source: small(), what: what.into(), folder: None };
     let jobs = [job("first"), job("second")];
     let made = simulate_all(&jobs, &into(folder.path()), &mut go_on).unwrap();
     assert!(made.of == [0, 0] && made.runs[0].as_ref().unwrap().fresh);
@@ -78,20 +78,20 @@ fn the_same_problem_is_run_once_and_found_again() {
 fn an_error_says_file_line_and_what_to_type() {
     let text = small().text.replace("elements = 8 ", "element = 8 ");
     let line = text.lines().position(|line| line.contains("element = 8")).unwrap() + 1;
-    let refused = simulate(&Source::new("my.toml", &text), &Settings::default(), &mut go_on).unwrap_err();
+    let refused = simulate(&Source::new("my.toml", &text), &RunSettings::default(), &mut go_on).unwrap_err();
     assert!(refused.to_string().starts_with(&format!("my.toml:{line}: ")), "{refused}");
     assert!(refused.help().unwrap().contains("elements"), "{:?}", refused.help());
 }
 
-fn from(earlier: &Path, folder: &Path) -> Settings {
-    Settings { from: Some(earlier.into()), ..into(folder) }
+fn from(earlier: &Path, folder: &Path) -> RunSettings {
+    RunSettings { from: Some(earlier.into()), ..into(folder) }
 }
 
 #[test]
 fn a_complete_run_goes_on_to_a_later_end_as_if_it_had_been_asked_for_at_once() {
     let folder = tempfile::tempdir().unwrap();
     let whole = simulate(&small(), &into(&folder.path().join("whole")), &mut go_on).unwrap();
-    let until = |end_s: f64| Settings { end_s: Some(end_s), ..into(&folder.path().join("longer")) };
+    let until = |end_s: f64| RunSettings { end_s: Some(end_s), ..into(&folder.path().join("longer")) };
     assert!(simulate(&small(), &until(0.008), &mut go_on).unwrap().fresh);
     assert!(!simulate(&small(), &until(0.008), &mut go_on).unwrap().fresh);
     let back = simulate(&small(), &until(0.007), &mut go_on).unwrap_err();

@@ -12,12 +12,12 @@ use stats_alloc::{INSTRUMENTED_SYSTEM, StatsAlloc};
 use std::alloc::System;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use watch::{Fault, Watched};
+use watch::{WatchTotals, WatchedReader};
 
 #[global_allocator]
 static COUNTING: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 
-struct Wish {
+struct FuzzRequest {
     readers: Vec<&'static Reader>,
     cases: u64,
     seed: u64,
@@ -37,13 +37,13 @@ fn main() -> ExitCode {
     ExitCode::from(u8::from(faults > 0))
 }
 
-fn wish(words: Vec<String>) -> Result<Wish, String> {
+fn wish(words: Vec<String>) -> Result<FuzzRequest, String> {
     let names: Vec<&str> = READERS.iter().map(|reader| reader.name).collect();
     let help = format!(
         "usage: ibr-fuzz READER [--cases N] [--seed S] [--from CASE] [--keep FOLDER]; READER: all, {}",
         names.join(", ")
     );
-    let mut wish = Wish { readers: Vec::new(), cases: 1000, seed: 1, from: 0, keep: "fuzz-found".into() };
+    let mut wish = FuzzRequest { readers: Vec::new(), cases: 1000, seed: 1, from: 0, keep: "fuzz-found".into() };
     let mut words = words.into_iter();
     while let Some(word) = words.next() {
         let mut value = || words.next().ok_or_else(|| format!("{word} needs a value\n{help}"));
@@ -64,15 +64,15 @@ fn wish(words: Vec<String>) -> Result<Wish, String> {
 }
 
 /// Gives the cases to a reader; prints how it went, and returns how many faults of different kinds were found.
-fn run(reader: &Reader, wish: &Wish) -> usize {
+fn run(reader: &Reader, wish: &FuzzRequest) -> usize {
     let corpus = reader.corpus();
-    let mut watched = Watched::new(reader, &wish.keep);
+    let mut watched = WatchedReader::new(reader, &wish.keep);
     for case in wish.from..wish.from + wish.cases {
         let mut random = mutate::Random::of(wish.seed, case);
         let input = mutate::broken(&corpus, &mut random);
         watched.feed(case, input, COUNTING);
     }
-    let Fault { kinds, read, seconds } = watched.end();
+    let WatchTotals { kinds, read, seconds } = watched.end();
     let rate = wish.cases as f64 / seconds;
     println!(
         "{:<18} {:>8} cases, {:>7.0} cases/s, {:>3.0} % read, {} faults",

@@ -15,7 +15,7 @@ pub(crate) const LONGEST: Duration = Duration::from_secs(20);
 /// No small file needs more memory, all requests added up.
 pub(crate) const MOST_MEMORY: usize = 1 << 30;
 
-pub(crate) struct Fault {
+pub(crate) struct WatchTotals {
     /// Different faults: places of panics, and reasons.
     pub kinds: usize,
     /// Inputs that were read without an error.
@@ -26,7 +26,7 @@ pub(crate) struct Fault {
 /// The case that a reader works on.
 type Current = Option<(u64, Instant, Vec<u8>)>;
 
-pub(crate) struct Watched<'r> {
+pub(crate) struct WatchedReader<'r> {
     reader: &'r Reader,
     keep: PathBuf,
     current: Arc<Mutex<Current>>,
@@ -38,14 +38,14 @@ pub(crate) struct Watched<'r> {
 
 static PANIC: Mutex<String> = Mutex::new(String::new());
 
-impl<'r> Watched<'r> {
-    pub(crate) fn new(reader: &'r Reader, keep: &Path) -> Watched<'r> {
+impl<'r> WatchedReader<'r> {
+    pub(crate) fn new(reader: &'r Reader, keep: &Path) -> WatchedReader<'r> {
         std::panic::set_hook(Box::new(|panic| {
             let place = panic.location().map(ToString::to_string).unwrap_or_default();
             *PANIC.lock().unwrap_or_else(PoisonError::into_inner) = place;
         }));
         let (current, over) = (Arc::new(Mutex::new(None)), Arc::new(AtomicBool::new(false)));
-        let watched = Watched {
+        let watched = WatchedReader {
             reader,
             keep: keep.into(),
             current,
@@ -105,9 +105,9 @@ impl<'r> Watched<'r> {
         }
     }
 
-    pub(crate) fn end(self) -> Fault {
+    pub(crate) fn end(self) -> WatchTotals {
         self.over.store(true, Ordering::Relaxed);
-        Fault { kinds: self.kinds.len(), read: self.read, seconds: self.began.elapsed().as_secs_f64() }
+        WatchTotals { kinds: self.kinds.len(), read: self.read, seconds: self.began.elapsed().as_secs_f64() }
     }
 }
 

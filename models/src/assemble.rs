@@ -2,10 +2,10 @@
 
 use crate::actuators::ActuatorShape;
 use crate::assembly::{Assembly, Segment};
-use crate::body::{Bending, BodyLaw, BodyPressure, BodyWall};
+use crate::body::{BodyLaw, BodyPressure, BodyWall, WallBending};
 use crate::effects::EFFECTS;
 use crate::scenario::{Scenario, Span};
-use crate::site::{CentreLine, Linkage, Site};
+use crate::site::{LineShortening, Linkage, Site};
 use crate::term::CHANNELS;
 
 pub(crate) fn assemble(scenario: &Scenario, spans: &[Span], segments: usize) -> Assembly {
@@ -35,10 +35,10 @@ fn site(scenario: &Scenario, span: &Span) -> Site {
         hinge_curvature: scenario.hinge_curvature,
         share: scenario.hinge_share,
     };
-    let bending = Bending { stiffness: span.bending_stiffness };
+    let bending = WallBending { stiffness: span.bending_stiffness };
     debug_assert!(span.channel < CHANNELS);
     let mut site = Site::new(span.radius_m, pressure, bending, linkage, span.actuator, shape, span.channel);
-    site.centre_line = CentreLine::new(span.centre_line_m, scenario.hinge_curvature);
+    site.centre_line = LineShortening::new(span.centre_line_m, scenario.hinge_curvature);
     site.wall_shear_n_per_m = scenario.wall.shear_n_per_m;
     if let Some(stiffness_n_per_m) = scenario.wall.stiffness_n_per_m {
         let wall = BodyWall { radius_m: span.radius_m, stiffness_n_per_m, share: scenario.hinge_share };

@@ -17,7 +17,7 @@ pub struct Batch {
     states: Vec<Prediction>,
 }
 
-struct Part<'a> {
+struct BatchShare<'a> {
     first: usize,
     loads: &'a [Loads],
     markers: &'a mut [[f64; 2]],
@@ -56,7 +56,8 @@ impl Model {
         out.markers.resize(loads.len() * self.marker_count(), [0.0; 2]);
         out.markers_z_m.resize(loads.len() * self.heights_each(), 0.0);
         out.tips.resize(loads.len(), Tip::default());
-        let whole = Part { first: 0, loads, markers: &mut out.markers, z_m: &mut out.markers_z_m, tips: &mut out.tips };
+        let whole =
+            BatchShare { first: 0, loads, markers: &mut out.markers, z_m: &mut out.markers_z_m, tips: &mut out.tips };
         let failed = match out.states.as_mut_slice() {
             [state] => self.predict_part(whole, state),
             states => self.predict_parts(whole, states),
@@ -73,7 +74,7 @@ impl Model {
     }
 
     /// Equal parts, one per thread; of several failures the first counts.
-    fn predict_parts(&self, whole: Part, states: &mut [Prediction]) -> Result<(), (usize, Unsolved)> {
+    fn predict_parts(&self, whole: BatchShare, states: &mut [Prediction]) -> Result<(), (usize, Unsolved)> {
         let size = whole.loads.len().div_ceil(states.len()).max(1);
         let mut markers = whole.markers.chunks_mut((size * self.marker_count()).max(1));
         let mut z_m = whole.z_m.chunks_mut((size * self.heights_each()).max(1));
@@ -82,7 +83,7 @@ impl Model {
             let mut running = Vec::with_capacity(each.len());
             for (k, ((loads, tips), state)) in each {
                 let (markers, z_m) = (markers.next().unwrap_or_default(), z_m.next().unwrap_or_default());
-                let part = Part { first: k * size, loads, markers, z_m, tips };
+                let part = BatchShare { first: k * size, loads, markers, z_m, tips };
                 running.push(scope.spawn(move || self.predict_part(part, state)));
             }
             // A panic of a part is passed on.
@@ -92,7 +93,7 @@ impl Model {
         })
     }
 
-    fn predict_part(&self, part: Part, state: &mut Prediction) -> Result<(), (usize, Unsolved)> {
+    fn predict_part(&self, part: BatchShare, state: &mut Prediction) -> Result<(), (usize, Unsolved)> {
         let count = self.marker_count();
         for (i, (item, tip)) in part.loads.iter().zip(part.tips).enumerate() {
             self.settle(item, state, false).map_err(|error| (part.first + i, error))?;

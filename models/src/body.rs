@@ -228,12 +228,12 @@ const SERIES_BELOW: f64 = 0.02;
 /// B \[N·m²\] is an **effective** number: folds, welds, glue and wrinkled wall are all in it. 0 in the bare model;
 /// calibrate it on data and say so. Do not read a fitted B as a fabric property.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bending {
+pub struct WallBending {
     /// Effective bending stiffness B of the whole section \[N·m²\], 0 in the bare model.
     pub stiffness: f64,
 }
 
-impl Term for Bending {
+impl Term for WallBending {
     fn line(&self) -> LedgerLine {
         LedgerLine::new("bending", Account::Wall)
     }

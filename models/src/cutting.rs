@@ -3,7 +3,7 @@
 //! x runs along the robot from its base. y runs across: on the body round its circumference from the actuator's middle, on a
 //! sheet of the actuator across its unfolded width. All pieces are seen from outside the finished robot.
 
-use crate::actuators::pattern::{Film, Joint, Panel, Pattern};
+use crate::actuators::pattern::{ChamberBottom, Film, Panel, Pattern};
 use crate::scenario::{Scenario, Span};
 use serde::Serialize;
 use spelling::si;
@@ -106,7 +106,7 @@ impl CuttingPlan {
         let mut notes = Vec::new();
         let mut strips = Vec::new();
         for span in joined(&spans, |a, b| a.actuator.is_some() && b.actuator.is_some() && a.shape == b.shape) {
-            strips.extend(Strip::new(&span, scenario.length_m, making, &mut notes)?);
+            strips.extend(CutStrip::new(&span, scenario.length_m, making, &mut notes)?);
         }
         let alike = |a: &Span, b: &Span| a.radius_m == b.radius_m;
         let bodies = joined(&spans, alike);
@@ -134,7 +134,7 @@ fn centred(middle_m: f64, width_m: f64) -> [f64; 2] {
 }
 
 /// The wall of a stretch of equal radius, unrolled; its seam is opposite the actuator.
-fn body(scenario: &Scenario, span: &Span, of: usize, strips: &[Strip], making: &Making) -> PatternPiece {
+fn body(scenario: &Scenario, span: &Span, of: usize, strips: &[CutStrip], making: &Making) -> PatternPiece {
     let (start_m, end_m) = (span.start_m, span.start_m + span.length_m);
     let here = |x_m: f64| start_m - making.weld_m <= x_m && x_m <= end_m + making.weld_m;
     let pattern = (scenario.actuator.kind.pattern)(&span.shape);
@@ -144,7 +144,7 @@ fn body(scenario: &Scenario, span: &Span, of: usize, strips: &[Strip], making: &
         |edge_m: f64, inwards: f64| PatternMark { kind: MarkKind::Lap, x_m, y_m: ordered([edge_m, edge_m - inwards]) };
     let mut marks = vec![lap(y_m[0], -making.allowance_m), lap(y_m[1], making.allowance_m)];
     let strips = strips.iter().filter(|strip| here(strip.start_m) && here(strip.end_m()));
-    marks.extend(strips.flat_map(Strip::on_body));
+    marks.extend(strips.flat_map(CutStrip::on_body));
     let markers = scenario.markers_m.iter().filter(|x| here(**x));
     let sides = [-0.5, 0.5].map(|side| side * PI * span.radius_m);
     marks
@@ -165,7 +165,7 @@ fn ordered(pair: [f64; 2]) -> [f64; 2] {
     [pair[0].min(pair[1]), pair[0].max(pair[1])]
 }
 
-struct Strip {
+struct CutStrip {
     pattern: Pattern,
     start_m: f64,
     units: usize,
@@ -173,8 +173,8 @@ struct Strip {
     making: Making,
 }
 
-impl Strip {
-    fn new(span: &Span, body_m: f64, making: &Making, notes: &mut Vec<String>) -> Result<Option<Strip>, String> {
+impl CutStrip {
+    fn new(span: &Span, body_m: f64, making: &Making, notes: &mut Vec<String>) -> Result<Option<CutStrip>, String> {
         let Some(actuator) = span.actuator else { return Ok(None) };
         let pattern = (actuator.pattern)(&span.shape);
         pattern.check(span.radius_m, making.weld_m)?;
@@ -186,7 +186,7 @@ impl Strip {
                 "From {from:.0} to {to:.0} mm {units} whole units fit; the last {rest_mm:.0} mm stay without."
             ));
         }
-        let strip = Strip { pattern, start_m: span.start_m, units: units as usize, body_m, making: *making };
+        let strip = CutStrip { pattern, start_m: span.start_m, units: units as usize, body_m, making: *making };
         Ok((strip.units > 0).then_some(strip))
     }
 
@@ -220,10 +220,10 @@ impl Strip {
         let edge_m = if side_welds { self.making.weld_m + 2.0 * self.making.allowance_m } else { 0.0 };
         let place = PatternMark { kind: MarkKind::Place, x_m: self.x_m(), y_m: centred(0.0, width_m + edge_m) };
         match joint {
-            Joint::Wall if body_sheets > 1 => self.welds(width_m, side_welds),
-            Joint::Wall => std::iter::once(place).chain(self.welds(width_m, side_welds)).collect(),
-            Joint::Bonded { film, .. } => vec![place, self.bonded(film, centred(0.0, width_m))],
-            Joint::Seams => std::iter::once(place).chain(self.welds(width_m, false)).collect(),
+            ChamberBottom::Wall if body_sheets > 1 => self.welds(width_m, side_welds),
+            ChamberBottom::Wall => std::iter::once(place).chain(self.welds(width_m, side_welds)).collect(),
+            ChamberBottom::Bonded { film, .. } => vec![place, self.bonded(film, centred(0.0, width_m))],
+            ChamberBottom::Seams => std::iter::once(place).chain(self.welds(width_m, false)).collect(),
         }
     }
 
@@ -253,10 +253,10 @@ impl Strip {
         let beyond = if side_welds { self.making.weld_m + 2.0 * self.making.allowance_m } else { 0.0 };
         let folded = || self.folds().into_iter().chain(self.welds(sheet_m, side_welds)).collect::<Vec<_>>();
         match joint {
-            Joint::Wall if body_sheets > 1 => Vec::new(),
-            Joint::Wall => vec![piece("sheet of the pouches", warp_rad, sheet_m + beyond, folded())],
+            ChamberBottom::Wall if body_sheets > 1 => Vec::new(),
+            ChamberBottom::Wall => vec![piece("sheet of the pouches", warp_rad, sheet_m + beyond, folded())],
             // Two faces of one bias-cut sheet, folded round.
-            Joint::Bonded { film, warp_rad: under } if !side_welds && under == -warp_rad => {
+            ChamberBottom::Bonded { film, warp_rad: under } if !side_welds && under == -warp_rad => {
                 let round_m = sheet_m + width_m;
                 let cut_m = round_m + self.making.allowance_m;
                 let stuck = [[-round_m, -sheet_m], [sheet_m, round_m]].map(|y| self.bonded(film, y.map(|v| 0.5 * v)));
@@ -270,7 +270,7 @@ impl Strip {
                 let marks = stuck.into_iter().chain(laps).chain(folds).chain(self.welds(round_m, false));
                 vec![piece("sheet of the muscle", warp_rad, cut_m, marks.collect())]
             }
-            Joint::Bonded { film, warp_rad: under } => {
+            ChamberBottom::Bonded { film, warp_rad: under } => {
                 let stuck = std::iter::once(self.bonded(film, centred(0.0, width_m)));
                 let below = stuck.chain(self.welds(width_m, side_welds)).collect();
                 vec![
@@ -278,7 +278,9 @@ impl Strip {
                     piece("lower sheet", under, width_m + beyond, below),
                 ]
             }
-            Joint::Seams => vec![piece("sheet of the bag", warp_rad, sheet_m + self.making.allowance_m, folded())],
+            ChamberBottom::Seams => {
+                vec![piece("sheet of the bag", warp_rad, sheet_m + self.making.allowance_m, folded())]
+            }
         }
     }
 

@@ -57,7 +57,7 @@ impl ScenarioError {
 #[expect(missing_docs, reason = "fields have the words and units of the message")]
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[error("s = {s_mm:.1} mm for P = {p_act_kpa:.3} kPa, p_b = {p_body_kpa:.3} kPa")]
-pub struct Place {
+pub struct FailurePlace {
     pub s_mm: f64,
     pub p_act_kpa: f64,
     pub p_body_kpa: f64,
@@ -86,20 +86,20 @@ pub enum Unsolved {
         "no equilibrium at {place}: \
          the imbalance goes from {low:.3e} to {high:.3e} N·m; the outer loads exceed what wall and actuator can carry"
     )]
-    NoEquilibrium { place: Place, low: f64, high: f64 },
+    NoEquilibrium { place: FailurePlace, low: f64, high: f64 },
     /// The same, because of a formula of the scenario.
     #[error(
         "no equilibrium at {place}: the formula {} gives {} at \
          kappa = {:.2} 1/m (theta = {:.3}); it must stay finite, and within what wall and actuator can carry, at all pressures and bends",
         extreme.formula, moment(extreme.moment), extreme.kappa, extreme.theta
     )]
-    Formula { extreme: Extreme, place: Place },
+    Formula { extreme: Extreme, place: FailurePlace },
     /// A law of a place has no value at the geometry of the scenario.
     #[error(
         "cannot balance the robot at {place}: {law} has no value at this \
          geometry. Try: a larger body.radius_mm, a smaller actuator.width_mm, or the robot without {law}"
     )]
-    NoValue { law: &'static str, place: Place },
+    NoValue { law: &'static str, place: FailurePlace },
     /// Moments and shape did not settle.
     #[error(
         "moments and shape did not agree after {iterations} iterations at P = {p_act_kpa:.3} kPa: \

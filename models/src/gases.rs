@@ -18,7 +18,7 @@
 use crate::error::Solved;
 use crate::model::{Model, Prediction};
 use crate::site::Site;
-use crate::space::Section;
+use crate::space::StripSection;
 use crate::term::{CHANNELS, Loads};
 use serde::Serialize;
 use spelling::si;
@@ -84,7 +84,7 @@ impl Model {
             let energy = |body_pa: f64, strip: usize, p_act_pa: f64| {
                 let (mut moved, mut sum) = (strips.clone(), 0.0);
                 moved.get_mut(strip).into_iter().for_each(|state| state.p_act_pa = p_act_pa);
-                Section::new(assembly, i, body_pa).energies(bend, &moved, &mut |_, energy| sum += energy);
+                StripSection::new(assembly, i, body_pa).energies(bend, &moved, &mut |_, energy| sum += energy);
                 sum * segment.length_m
             };
             for (k, (strip, state)) in assembly.around[i].iter().zip(strips).enumerate() {
@@ -92,7 +92,7 @@ impl Model {
                 let moved_m3 = -by_pressure(state.p_act_pa, |p| energy(body_pa, k, p));
                 m3[site.channel] += at_rest_m2(site) * length_m + moved_m3;
             }
-            let at_rest_m3 = Section::new(assembly, i, body_pa).area_m2 * segment.length_m;
+            let at_rest_m3 = StripSection::new(assembly, i, body_pa).area_m2 * segment.length_m;
             m3[BODY_GAS] += at_rest_m3 - by_pressure(body_pa, |p| energy(p, strips.len(), 0.0));
         }
         if at.work.is_sheared() {

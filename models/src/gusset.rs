@@ -17,7 +17,7 @@ pub(crate) fn narrowed(a: f64, u: f64) -> f64 {
 
 /// By how much the wall's chord is shorter than its sheet in the middle of a pouch \[m\].
 pub(crate) fn narrowing_m(length_m: f64, fold_m: f64, theta: f64) -> f64 {
-    let [[a, _], [u, _]] = Lens::new(length_m, theta).side(fold_m, 0.0).of_theta;
+    let [[a, _], [u, _]] = GussetLens::new(length_m, theta).side(fold_m, 0.0).of_theta;
     NARROWED * narrowed(a, u)
 }
 
@@ -31,14 +31,14 @@ fn times([x, dx]: Sloped, [y, dy]: Sloped) -> Sloped {
     [x * y, dx * y + x * dy]
 }
 
-pub(crate) struct Lens {
+pub(crate) struct GussetLens {
     theta: f64,
     length_m: f64,
     half: (f64, f64),
 }
 
 /// Its side at φ = tθ.
-struct Side {
+struct GussetSide {
     /// Half height a of the section and opening u of the fold \[m\], with slopes over θ.
     of_theta: [Sloped; 2],
     /// cosφ, by which a step of t is a step along the body.
@@ -47,12 +47,12 @@ struct Side {
     spare: f64,
 }
 
-impl Lens {
-    pub(crate) fn new(length_m: f64, theta: f64) -> Lens {
-        Lens { theta, length_m, half: sin_cos(0.5 * theta) }
+impl GussetLens {
+    pub(crate) fn new(length_m: f64, theta: f64) -> GussetLens {
+        GussetLens { theta, length_m, half: sin_cos(0.5 * theta) }
     }
 
-    fn side(&self, fold_m: f64, t: f64) -> Side {
+    fn side(&self, fold_m: f64, t: f64) -> GussetSide {
         let (sin, cos) = self.half;
         let (sin_k, cos_k) = sin_cos(0.5 * self.theta * t);
         // Of ½(θ + φ) and ½(θ − φ), which keep their digits for small angles.
@@ -76,12 +76,12 @@ impl Lens {
             [fold_m, 0.0]
         };
         let along = [cos_k * cos_k - sin_k * sin_k, -2.0 * t * sin_k * cos_k];
-        Side { of_theta: [[a, d_a], opened], along, spare }
+        GussetSide { of_theta: [[a, d_a], opened], along, spare }
     }
 
     /// Half angle θ₀ at which the fold is open to its bottom in the middle of the pouch; π where it stays held.
     pub(crate) fn opens(length_m: f64, fold_m: f64) -> f64 {
-        halved([0.0, PI], HALVINGS, |theta| Lens::new(length_m, theta).side(fold_m, 0.0).spare < 0.0)[1]
+        halved([0.0, PI], HALVINGS, |theta| GussetLens::new(length_m, theta).side(fold_m, 0.0).spare < 0.0)[1]
     }
 
     /// Up to which t the fold is open to its bottom.
@@ -126,7 +126,7 @@ const GAUSS: [[f64; 2]; 4] = [
     [0.930_568_155_797_026_3, 0.173_927_422_568_726_93],
 ];
 
-impl Side {
+impl GussetSide {
     /// 4au − πa², b and b².
     fn gains(&self) -> Sums {
         let [[a, d_a], [u, d_u]] = self.of_theta;
@@ -146,7 +146,7 @@ mod tests {
     #[test]
     fn a_flap_that_is_held_is_as_long_from_corner_to_root_as_its_fabric() {
         for (fold, theta, t) in [(0.024, 0.6, 0.0), (0.024, 1.3, 0.4), (0.018, 0.9, 0.8)] {
-            let Side { of_theta: [[a, _], [u, _]], spare, .. } = Lens::new(LENGTH, theta).side(fold, t);
+            let GussetSide { of_theta: [[a, _], [u, _]], spare, .. } = GussetLens::new(LENGTH, theta).side(fold, t);
             assert!(spare < 0.0);
             let (radius, phi) = (0.5 * LENGTH / theta, t * theta);
             // Side by half circle: its sheet is u longer than the strip is wide, from the middle to the root.
@@ -182,14 +182,14 @@ mod tests {
 
     #[test]
     fn a_flat_pouch_opens_by_a_seventh_of_its_half_height() {
-        let Side { of_theta: [[a, _], [u, _]], .. } = Lens::new(LENGTH, 1e-4).side(0.024, 0.3);
+        let GussetSide { of_theta: [[a, _], [u, _]], .. } = GussetLens::new(LENGTH, 1e-4).side(0.024, 0.3);
         assert!((u / a / (0.5 * GATHERED) - 1.0).abs() < 1e-3, "{}", u / a);
     }
 
     #[test]
     fn few_points_integrate_as_well_as_thousands() {
         for (fold, theta) in [(0.024, 0.42), (0.024, 1.43), (0.012, 1.01)] {
-            let (lens, n) = (Lens::new(LENGTH, theta), 4000);
+            let (lens, n) = (GussetLens::new(LENGTH, theta), 4000);
             let mut fine = [0.0; 3];
             for i in 0..n {
                 let side = lens.side(fold, (f64::from(i) + 0.5) / f64::from(n));

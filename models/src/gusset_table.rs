@@ -3,7 +3,7 @@
 //! The fold opens to its bottom at θ₀, in the middle of the pouch first, and beyond it the integrals go on with the power 3/2 of θ − θ₀.
 //! So a piece ends at θ₀, and beyond it the cubics are over √(θ − θ₀).
 
-use crate::gusset::{Lens, Sloped, Sums};
+use crate::gusset::{GussetLens, Sloped, Sums};
 use std::f64::consts::PI;
 
 /// Number of cubics in each of the two parts, below and beyond θ₀.
@@ -12,7 +12,7 @@ const STEPS: usize = 96;
 const LEAST: f64 = 1e-6;
 
 /// One part of the table: cubics at equal steps of a variable.
-struct Part {
+struct CubicTable {
     step: f64,
     pieces: Vec<[[f64; 4]; 3]>,
 }
@@ -20,13 +20,13 @@ struct Part {
 pub(crate) struct GussetTable {
     /// θ₀; π where the fold stays held.
     opens: f64,
-    held: Part,
-    open: Part,
+    held: CubicTable,
+    open: CubicTable,
 }
 
-impl Part {
+impl CubicTable {
     /// From integrals and their slopes over a variable up to `end`.
-    fn new(end: f64, of: impl Fn(f64) -> Sums) -> Part {
+    fn new(end: f64, of: impl Fn(f64) -> Sums) -> CubicTable {
         let step = end / STEPS as f64;
         let nodes: Vec<Sums> = (0..=STEPS).map(|i| of(step * i as f64)).collect();
         let cubic = |[v, d]: Sloped, [w, e]: Sloped| {
@@ -34,7 +34,7 @@ impl Part {
             [v, d, 3.0 * (w - v) - 2.0 * d - e, 2.0 * (v - w) + d + e]
         };
         let pieces = nodes.windows(2).map(|at| [0, 1, 2].map(|k| cubic(at[0][k], at[1][k]))).collect();
-        Part { step, pieces }
+        CubicTable { step, pieces }
     }
 
     #[inline]
@@ -50,12 +50,12 @@ impl Part {
 
 impl GussetTable {
     pub(crate) fn new(length_m: f64, fold_m: f64) -> GussetTable {
-        let opens = Lens::opens(length_m, fold_m);
-        let sums = |theta: f64| Lens::new(length_m, theta).sums(fold_m);
-        let held = Part::new(opens, |theta| sums(theta.max(LEAST)));
+        let opens = GussetLens::opens(length_m, fold_m);
+        let sums = |theta: f64| GussetLens::new(length_m, theta).sums(fold_m);
+        let held = CubicTable::new(opens, |theta| sums(theta.max(LEAST)));
         // Slopes over the root x: twice x those over θ.
         let over_root = |x: f64| sums(opens + x * x).map(|[value, slope]| [value, 2.0 * x * slope]);
-        let open = Part::new((PI - opens).max(LEAST).sqrt(), over_root);
+        let open = CubicTable::new((PI - opens).max(LEAST).sqrt(), over_root);
         GussetTable { opens, held, open }
     }
 
@@ -82,7 +82,7 @@ mod tests {
             let near = [-0.02, -1e-3, 1e-4, 5e-4, 2e-3, 0.02].map(|more| table.opens + more);
             for theta in near.into_iter().chain([0.013, 0.21, 0.42, 1.01, 1.43, 2.1]).filter(|t| (0.01..PI).contains(t))
             {
-                let made = Lens::new(length_m, theta).sums(fold_m);
+                let made = GussetLens::new(length_m, theta).sums(fold_m);
                 for ((read, made), power) in table.sums(theta).iter().zip(made).zip([3, 2, 3]) {
                     let [value, slope] = [0, 1].map(|i| (read[i] - made[i]).abs() / length_m.powi(power));
                     assert!(value < 1e-6 && slope < 3e-4, "{fold_m} {theta}: {read:?} {made:?}");

@@ -20,7 +20,7 @@ use crate::assembly::Segment;
 use crate::error::Solved;
 use crate::follow::{Each, Step};
 use crate::model::{Model, Prediction};
-use crate::robot::{Held, bend};
+use crate::robot::{HeldCurvatures, bend};
 use crate::scenario::{Scenario, Span};
 use crate::term::Loads;
 
@@ -72,7 +72,7 @@ impl Model {
         self.planar("holding a robot at curvatures")?;
         out.work.held.missing = vec![0.0; self.segments().len()];
         let walked = self.walk(steps, Some(curvatures), out, each);
-        out.work.held = Held::default();
+        out.work.held = HeldCurvatures::default();
         walked
     }
 }

@@ -54,7 +54,7 @@ impl Model {
         if sizes.sum::<f64>() < PI {
             return None;
         }
-        let (mut places, mut turned): (Vec<Place>, f64) = (Vec::new(), 0.0);
+        let (mut places, mut turned): (Vec<LinePlace>, f64) = (Vec::new(), 0.0);
         for (i, segment) in segments.iter().enumerate() {
             let (radius_m, kappa) = (self.assembly().site(i).radius_m, at.work.states[i].curvature.abs());
             let count = (segment.length_m / (SPACING * radius_m)).ceil();
@@ -62,13 +62,13 @@ impl Model {
                 let offset_m = segment.length_m * k as f64 / count;
                 let turned = turned + kappa * offset_m;
                 let (s_m, at) = (segment.start_m + offset_m, self.point(&at.work, i, offset_m));
-                places.push(Place { s_m, at, turned, radius_m });
+                places.push(LinePlace { s_m, at, turned, radius_m });
             }
             turned += kappa * segment.length_m;
         }
         let mut found: Option<Beyond> = None;
         for (i, place) in places.iter().enumerate() {
-            let share = |other: &Place| (place.radius_m + other.radius_m) / distance(place.at, other.at);
+            let share = |other: &LinePlace| (place.radius_m + other.radius_m) / distance(place.at, other.at);
             let near = places[..i].iter().take_while(|other| place.turned - other.turned > PI).map(share);
             let share = near.fold(0.0, f64::max);
             if share > 1.0 {
@@ -120,7 +120,7 @@ impl Model {
 }
 
 /// A place of the centre line, and ∫|κ| ds up to it.
-struct Place {
+struct LinePlace {
     s_m: f64,
     at: [f64; 3],
     turned: f64,

@@ -119,7 +119,7 @@ impl Half {
 }
 
 /// The cell at given pressures and line: everything but the shortening of its ends.
-struct Held<'a> {
+struct PressurisedCell<'a> {
     halves: &'a [Half; 2],
     thrust: f64,
     /// Contraction of what bends, and h over its arm.
@@ -130,7 +130,7 @@ struct Held<'a> {
     drive: f64,
 }
 
-impl Held<'_> {
+impl PressurisedCell<'_> {
     /// Lengths of the axis and of both halves at a shortening of each end over r.
     #[inline]
     fn lengths(&self, d: f64) -> [f64; 3] {
@@ -149,7 +149,7 @@ impl Held<'_> {
         [[pull, free.second + glued.second, free.third + glued.third], more]
     }
 
-    /// Shortening of each end over r at which it pulls as the tube does, and the pulls of [`Held::tube`] there: Halley within
+    /// Shortening of each end over r at which it pulls as the tube does, and the pulls of [`PressurisedCell::tube`] there: Halley within
     /// a bracket.
     fn settled(&self) -> [f64; 3] {
         let still = |d: f64| self.tube(d).map(|of| of[0]);
@@ -195,7 +195,7 @@ impl Muscle {
 
     /// The cell at a contraction of the line, and its share of the flat length.
     #[inline]
-    fn held(&self, contraction: f64, p_act_pa: f64, p_body_pa: f64) -> (Held<'_>, f64) {
+    fn held(&self, contraction: f64, p_act_pa: f64, p_body_pa: f64) -> (PressurisedCell<'_>, f64) {
         let Muscle { radius_m, halves, per_m: [ends, lever], .. } = self;
         let p = self.volume_gain * p_act_pa;
         let thrust = p * radius_m;
@@ -207,7 +207,7 @@ impl Muscle {
         // Over the width πr₀.
         let drive = thrust * spread - p_body_pa * self.drawn_in_m;
         let (line, lever, gain) = (contraction * per, lever * radius, ends * radius * per);
-        (Held { halves, thrust, line, lever, gain, drive }, bends)
+        (PressurisedCell { halves, thrust, line, lever, gain, drive }, bends)
     }
 
     /// Potential per metre of body at a contraction of the line, and its slope.

@@ -34,7 +34,7 @@ pub(crate) enum Reach {
 /// A pressure from 0 to `most` at which `f` meets its target: the lowest that so many samples show.
 pub(crate) fn reach(f: &mut dyn FnMut(f64) -> f64, wanted: f64, most: f64, samples: usize) -> Reach {
     let place = |i: usize| most * (i as f64 / (samples - 1) as f64).powi(3);
-    let mut seen = Seen { wanted, gap: None, last: None, least: f64::INFINITY, most: f64::NEG_INFINITY };
+    let mut seen = SearchedRange { wanted, gap: None, last: None, least: f64::INFINITY, most: f64::NEG_INFINITY };
     let mut point = (0.0, f(0.0));
     let mut before = point;
     for i in 0..samples {
@@ -60,7 +60,7 @@ pub(crate) fn reach(f: &mut dyn FnMut(f64) -> f64, wanted: f64, most: f64, sampl
     }
 }
 
-struct Seen {
+struct SearchedRange {
     wanted: f64,
     gap: Option<Reach>,
     last: Option<Point>,
@@ -68,7 +68,7 @@ struct Seen {
     most: f64,
 }
 
-impl Seen {
+impl SearchedRange {
     /// The next point; a pressure if the target is met at it or on the way to it.
     fn visit(&mut self, f: &mut dyn FnMut(f64) -> f64, point: Point) -> Option<f64> {
         let (p, value) = point;

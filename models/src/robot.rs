@@ -10,7 +10,7 @@ use crate::site::SiteState;
 use crate::space;
 use coupled::{coupled, disagreement, place_nodes, place_of, solve_segment};
 pub(crate) use tip::tip_compliance;
-pub(crate) use workspace::{Held, Workspace};
+pub(crate) use workspace::{HeldCurvatures, Workspace};
 
 /// Places the nodes at an equilibrium without transverse loads, which does not need them; with such loads they are placed.
 pub(crate) fn place(assembly: &Assembly, work: &mut Workspace) {

@@ -17,7 +17,7 @@ use std::f64::consts::PI;
 
 /// Such a section, heights from the far side.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Section {
+pub(crate) struct CutSection {
     pub radius_m: f64,
     pub cos: f64,
     pub area_m2: f64,
@@ -25,9 +25,9 @@ pub(crate) struct Section {
     pub chord_m: f64,
 }
 
-impl Section {
+impl CutSection {
     /// `None` if the chord is negative or not shorter than the arc.
-    pub(crate) fn new(arc_m: f64, chord_m: f64) -> Option<Section> {
+    pub(crate) fn new(arc_m: f64, chord_m: f64) -> Option<CutSection> {
         if !(arc_m > 0.0 && chord_m >= 0.0 && chord_m < arc_m) {
             return None;
         }
@@ -36,12 +36,12 @@ impl Section {
         let radius_m = arc_m / (2.0 * beta);
         let area_m2 = radius_m.powi(2) * (beta + sin * cos);
         let centroid_m = radius_m - 2.0 * (radius_m * sin).powi(3) / (3.0 * area_m2);
-        Some(Section { radius_m, cos, area_m2, centroid_m, chord_m: radius_m * (1.0 + cos) })
+        Some(CutSection { radius_m, cos, area_m2, centroid_m, chord_m: radius_m * (1.0 + cos) })
     }
 
     /// Of a body of radius R around a strip of flat width W, drawn in to a chord w.
-    pub(crate) fn drawn_in(radius_m: f64, width_m: f64, chord_m: f64) -> Option<Section> {
-        Section::new(2.0 * PI * radius_m - width_m, chord_m)
+    pub(crate) fn drawn_in(radius_m: f64, width_m: f64, chord_m: f64) -> Option<CutSection> {
+        CutSection::new(2.0 * PI * radius_m - width_m, chord_m)
     }
 
     /// Its area, and the first moment of that about the axis of a body of radius R.
@@ -81,15 +81,15 @@ mod tests {
 
     #[test]
     fn a_short_chord_leaves_a_circle_and_a_pouch_of_60_mm_in_a_body_of_80_a_chord_at_69() {
-        let circle = Section::new(2.0 * PI * 0.04, 0.0).unwrap();
+        let circle = CutSection::new(2.0 * PI * 0.04, 0.0).unwrap();
         assert!((circle.chord_m - 0.08).abs() < 1e-12 && (circle.centroid_m - 0.04).abs() < 1e-12, "{circle:?}");
         assert!((circle.area_m2 - PI * 1.6e-3).abs() < 1e-12 && (circle.moment_share(0.04) - 1.0).abs() < 1e-9);
-        let pouch = Section::drawn_in(0.04, 0.06, 0.06).unwrap();
+        let pouch = CutSection::drawn_in(0.04, 0.06, 0.06).unwrap();
         assert!((pouch.chord_m - 0.0693).abs() < 5e-5, "{pouch:?}");
         // The chord closes the arc, and the gas of a slice pushes as hard on both sides of any cut.
         let sin = (1.0 - pouch.cos * pouch.cos).sqrt();
         assert!((2.0 * pouch.radius_m * sin - 0.06).abs() < 1e-12);
-        assert!(Section::new(0.1, 0.1).is_none() && Section::new(0.1, -0.01).is_none());
+        assert!(CutSection::new(0.1, 0.1).is_none() && CutSection::new(0.1, -0.01).is_none());
     }
 
     #[test]
@@ -101,26 +101,26 @@ mod tests {
         }
         assert!(
             beyond(1.0 - f64::EPSILON).is_finite()
-                && Section::new(0.1, 0.1 - 1e-16).is_some_and(|s| s.area_m2.is_finite())
+                && CutSection::new(0.1, 0.1 - 1e-16).is_some_and(|s| s.area_m2.is_finite())
         );
     }
 
     #[test]
     fn a_long_chord_leaves_a_half() {
         let radius = 0.03;
-        let round = Section::new(2.0 * PI * radius, 1e-7).unwrap();
+        let round = CutSection::new(2.0 * PI * radius, 1e-7).unwrap();
         assert!((round.chord_m / (2.0 * radius) - 1.0).abs() < 1e-6 && (round.centroid_m / radius - 1.0).abs() < 1e-6);
-        let half = Section::new(PI * radius, 2.0 * radius).unwrap();
+        let half = CutSection::new(PI * radius, 2.0 * radius).unwrap();
         assert!((half.chord_m / radius - 1.0).abs() < 1e-12);
         assert!((half.area_m2 / (0.5 * PI * radius * radius) - 1.0).abs() < 1e-12);
         assert!((half.centroid_m / (radius * (1.0 - 4.0 / (3.0 * PI))) - 1.0).abs() < 1e-12);
-        assert_eq!(Section::new(0.05, 0.06), None);
+        assert_eq!(CutSection::new(0.05, 0.06), None);
     }
 
     #[test]
     fn area_and_centroid_are_those_of_strips_of_the_section() {
         let (arc, chord) = (0.19, 0.038);
-        let at = Section::new(arc, chord).unwrap();
+        let at = CutSection::new(arc, chord).unwrap();
         let radius = (0.25 * chord * chord + at.chord_m.powi(2)) / (2.0 * at.chord_m);
         let (mut area, mut moment, n) = (0.0, 0.0, 200_000);
         for i in 0..n {

@@ -68,7 +68,7 @@ pub(crate) fn sinc_pair(u: f64) -> [f64; 8] {
 
 /// How the centre line shortens with the bend.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CentreLine {
+pub struct LineShortening {
     /// Distance c from the taut generator \[m\].
     pub(crate) from_taut_m: f64,
     /// Curvature k over which the taut generator changes side \[1/m\].
@@ -78,10 +78,10 @@ pub struct CentreLine {
 /// Largest c k: a body that changes side is longer by up to 0.26 c k, 0.05 %.
 const MOST_LONGER: f64 = 2e-3;
 
-impl CentreLine {
+impl LineShortening {
     /// Of a body whose restoring moment changes sign over `hinge_curvature`.
-    pub(crate) fn new(from_taut_m: f64, hinge_curvature: f64) -> CentreLine {
-        CentreLine { from_taut_m, turn_per_m: hinge_curvature.min(MOST_LONGER / from_taut_m.abs()) }
+    pub(crate) fn new(from_taut_m: f64, hinge_curvature: f64) -> LineShortening {
+        LineShortening { from_taut_m, turn_per_m: hinge_curvature.min(MOST_LONGER / from_taut_m.abs()) }
     }
 
     /// Shortening s, and its first and second derivatives by κ.
@@ -101,7 +101,7 @@ impl CentreLine {
 
 /// The arc of curvature `kappa` over a taut length `h`.
 #[inline(always)]
-pub(crate) fn arc(kappa: f64, h: f64, centre: CentreLine) -> Arc {
+pub(crate) fn arc(kappa: f64, h: f64, centre: LineShortening) -> Arc {
     let [a, b, da, db, dda, ddb, sin, cos] = sinc_pair(kappa * h);
     let [shorter, d_shorter, dd_shorter] = centre.shortening(kappa);
     let (line, lost, more) = ((1.0 - shorter) * h, d_shorter * h, dd_shorter * h);
@@ -128,7 +128,13 @@ pub(crate) struct Stretch {
 impl Stretch {
     /// From its start (position, direction of the slid wall, heading), its curvature and its centre line.
     #[inline(always)]
-    pub(crate) fn new(from: [f64; 2], direction: [f64; 2], heading: f64, kappa: f64, centre: CentreLine) -> Stretch {
+    pub(crate) fn new(
+        from: [f64; 2],
+        direction: [f64; 2],
+        heading: f64,
+        kappa: f64,
+        centre: LineShortening,
+    ) -> Stretch {
         let line = 1.0 - centre.shortening(kappa)[0];
         Stretch { from, direction, heading, kappa, line, line_radius: line / kappa }
     }
@@ -170,7 +176,7 @@ pub(crate) fn advance(from: [f64; 2], [c, s]: [f64; 2], [along, across]: [f64; 2
 mod tests {
     use super::*;
 
-    const LINE: CentreLine = CentreLine { from_taut_m: 0.04, turn_per_m: 0.05 };
+    const LINE: LineShortening = LineShortening { from_taut_m: 0.04, turn_per_m: 0.05 };
 
     #[test]
     fn series_and_closed_form_agree_where_they_join() {
@@ -226,7 +232,7 @@ mod tests {
             let [towards, away] = [kappa, -kappa].map(|kappa| LINE.shortening(kappa)[0]);
             assert!(away <= towards && towards - away < 4.0 * 0.04 * 0.05 * std::f64::consts::LN_2, "{kappa}");
         }
-        let wide = CentreLine::new(0.5, 0.05);
+        let wide = LineShortening::new(0.5, 0.05);
         let longest = (1..2000).map(|i| wide.shortening(-1e-4 * f64::from(i))[0]).fold(0.0, f64::min);
         assert!(longest > -6e-4, "{longest}");
     }

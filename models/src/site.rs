@@ -20,11 +20,11 @@ mod turn;
 mod wall;
 
 use crate::actuators::{Actuator, ActuatorShape, Demand, Stroke};
-use crate::body::{Bending, BodyLaw, BodyPressure};
+use crate::body::{BodyLaw, BodyPressure, WallBending};
 use crate::linkage::{ActuatorPressure, line_tension};
 pub use crate::linkage::{Linkage, SectionLaw};
 use crate::root::{NoRoot, Root, Start, find_root};
-pub use crate::shape::CentreLine;
+pub use crate::shape::LineShortening;
 use crate::term::{Extreme, Pose, Remembering, Term, actuator_q};
 use crate::weave::Weave;
 use starts::Starts;
@@ -35,7 +35,7 @@ pub struct Site {
     /// Radius R of the inflated body \[m\].
     pub radius_m: f64,
     /// Centre line: R from the taut generator, or at the scenario's distance.
-    pub centre_line: CentreLine,
+    pub centre_line: LineShortening,
     /// Actuator kind, `None` on a passive stretch.
     pub actuator: Option<&'static Actuator>,
     /// Dimensions of one actuator unit, after the effects that change them.
@@ -65,7 +65,7 @@ pub struct Site {
     /// Body pressure work; an effect may replace the law.
     pub body_pressure: BodyLaw,
     /// Elastic bending of the wall with its effective stiffness B.
-    pub bending: Bending,
+    pub bending: WallBending,
     /// Further terms over `[κ]`, J per metre of body.
     pub body_terms: Vec<Box<dyn Remembering>>,
     /// Shear stiffness of the wall G t \[N/m\]; `None`: transverse loads do not shear the body.
@@ -188,7 +188,7 @@ impl Site {
     pub(crate) fn new(
         radius_m: f64,
         body_pressure: BodyPressure,
-        bending: Bending,
+        bending: WallBending,
         linkage: Linkage,
         actuator: Option<&'static Actuator>,
         shape: ActuatorShape,
@@ -196,7 +196,7 @@ impl Site {
     ) -> Site {
         Site {
             radius_m,
-            centre_line: CentreLine::new(radius_m, body_pressure.hinge_curvature),
+            centre_line: LineShortening::new(radius_m, body_pressure.hinge_curvature),
             actuator,
             shape,
             strip_m: shape.width_m,

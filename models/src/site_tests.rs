@@ -21,7 +21,7 @@ fn the_start_value_of_a_place_without_effects_is_its_equilibrium_also_with_a_gro
                 section: None,
             };
             let body = BodyPressure { radius_m: 0.04, hinge_curvature: 1e-4, share: 1.0 };
-            let site = Site::new(0.04, body, Bending { stiffness }, linkage, Some(actuator), shape, 0);
+            let site = Site::new(0.04, body, WallBending { stiffness }, linkage, Some(actuator), shape, 0);
             for p_act_pa in [5e3, 2e4, 1e5] {
                 let loads = SiteLoads { p_body_pa: 2e3, p_act_pa, moment: 0.01, s_m: 0.0, dt_s: 0.0, stamp: 0 };
                 let start = site.start(actuator, &loads, &[]);

@@ -19,7 +19,7 @@ use crate::space::direction;
 use std::f64::consts::PI;
 
 /// Force and geometry of a strip at its state of equilibrium.
-pub(crate) struct Pull {
+pub(crate) struct StripPull {
     pub azimuth_rad: f64,
     /// Distance of its line of action from the axis \[m\].
     pub from_axis_m: f64,
@@ -34,7 +34,7 @@ pub(crate) struct Statics<'a> {
     pub radius_m: f64,
     pub moment_nm: [f64; 2],
     pub tension_n: f64,
-    pub pulls: &'a mut dyn Iterator<Item = Pull>,
+    pub pulls: &'a mut dyn Iterator<Item = StripPull>,
 }
 
 const HALVINGS: usize = 60;
@@ -91,13 +91,13 @@ mod tests {
 
     const RADIUS: f64 = 0.04;
 
-    fn share(moment_nm: [f64; 2], tension_n: f64, pulls: Vec<Pull>) -> f64 {
+    fn share(moment_nm: [f64; 2], tension_n: f64, pulls: Vec<StripPull>) -> f64 {
         let pulls = &mut pulls.into_iter();
         Statics { p_body_pa: 2e3, radius_m: RADIUS, moment_nm, tension_n, pulls }.share()
     }
 
-    fn pull(azimuth_rad: f64, from_axis_m: f64) -> Pull {
-        Pull { azimuth_rad, from_axis_m, lost_m2: 0.0, first_m3: 0.0 }
+    fn pull(azimuth_rad: f64, from_axis_m: f64) -> StripPull {
+        StripPull { azimuth_rad, from_axis_m, lost_m2: 0.0, first_m3: 0.0 }
     }
 
     #[test]
@@ -128,10 +128,10 @@ mod tests {
     /// The handbook's numbers: 0.305 N·m in the section of the ePAM, whose gas has 0.358 N·m about the far side.
     #[test]
     fn the_drawn_in_section_of_the_epam_carries_three_quarters_of_the_round_one() {
-        let drawn = crate::section::Section::drawn_in(RADIUS, 0.06, 0.06).unwrap();
+        let drawn = crate::section::CutSection::drawn_in(RADIUS, 0.06, 0.06).unwrap();
         let lost_m2 = PI * RADIUS.powi(2) - drawn.area_m2;
         let first_m3 = drawn.area_m2 * (drawn.centroid_m - RADIUS);
-        let pull = Pull { azimuth_rad: 0.0, from_axis_m: drawn.chord_m - RADIUS, lost_m2, first_m3 };
+        let pull = StripPull { azimuth_rad: 0.0, from_axis_m: drawn.chord_m - RADIUS, lost_m2, first_m3 };
         let carried = 2e3 * drawn.area_m2 * (drawn.chord_m - drawn.centroid_m);
         assert!((carried - 0.305).abs() < 1e-3, "{carried}");
         assert!((share([-carried, 0.0], 0.0, vec![pull]) - 1.0).abs() < 1e-12);

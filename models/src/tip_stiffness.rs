@@ -21,7 +21,7 @@
 use crate::error::Solved;
 use crate::model::{Model, Prediction};
 use crate::robot;
-use crate::space::{self, Frame, Matrix, Section, cross, outer};
+use crate::space::{self, Frame, Matrix, StripSection, cross, outer};
 use crate::term::Loads;
 use serde::Serialize;
 use spelling::si;
@@ -74,7 +74,7 @@ impl Model {
                 (site.centre_line.shortening(state.curvature), site.shear_stiffness_n(body_pa));
             let gives = if self.is_spatial() {
                 let (bend, strips) = (at.work.space.bends[i], &mut at.work.space.strips[i]);
-                Section::new(assembly, i, body_pa).compliance(strips, &bend)?
+                StripSection::new(assembly, i, body_pa).compliance(strips, &bend)?
             } else {
                 let way = [1.0, 0.0, along];
                 outer(way, way).map(|row| row.map(|x| state.compliance * x))

@@ -18,7 +18,7 @@ use ibr::study::study::Knob;
 use ibr::study::study::engines::known_runs;
 use ibr::study::validation::BeforeAfter;
 use ibr::study::witness::{Witness, witness};
-use ibr::{Diagnosis, DiagnosisOptions, Evidence, Extension, ScenarioFile, Wish};
+use ibr::{Diagnosis, DiagnosisOptions, EffectWish, Evidence, Extension, ScenarioFile};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
@@ -128,7 +128,7 @@ impl Whole {
 
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
-pub(crate) struct Asked {
+pub(crate) struct DiagnosisRequest {
     sigma_mm: Option<f64>,
     tolerance_mm: Option<f64>,
     refit: bool,
@@ -136,7 +136,7 @@ pub(crate) struct Asked {
     without: Vec<String>,
 }
 
-impl Asked {
+impl DiagnosisRequest {
     fn options(self) -> DiagnosisOptions {
         DiagnosisOptions {
             sigma_m: metres(self.sigma_mm),
@@ -160,7 +160,7 @@ pub(crate) fn diagnose(
     py: Python<'_>,
     scenario: &Scenario,
     data: Vec<PyRef<'_, Data>>,
-    asked: Asked,
+    asked: DiagnosisRequest,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Answer> {
     let (file, evidence, options) = (ScenarioFile::clone(scenario.file()?), all_evidence(&data), asked.options());
@@ -208,13 +208,13 @@ pub(crate) fn add(
     scenario: &Scenario,
     effect: &str,
     data: Vec<PyRef<'_, Data>>,
-    asked: Asked,
+    asked: DiagnosisRequest,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Answer> {
     let (file, evidence) = (scenario.file()?, all_evidence(&data));
     let options = asked.options().without_advice();
     let found = beside(py, progress.as_ref(), |tell| {
-        let wish = Wish::read(file, effect, !evidence.is_empty())?;
+        let wish = EffectWish::read(file, effect, !evidence.is_empty())?;
         ibr::add(file, &wish, &evidence, &options, &mut |what, share| _ = tell(what, share))
     })?;
     extended(file, &evidence, found.map_err(raised)?)
@@ -227,7 +227,7 @@ pub(crate) fn ladder(
     py: Python<'_>,
     scenario: &Scenario,
     data: Vec<PyRef<'_, Data>>,
-    asked: Asked,
+    asked: DiagnosisRequest,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Answer> {
     let (file, evidence) = (scenario.file()?, all_evidence(&data));

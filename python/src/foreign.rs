@@ -7,7 +7,7 @@ use crate::inputs::{Data, Made};
 use crate::scenario::Scenario;
 use ibr::data::parse_correction;
 use ibr::shown::validation::ValidateAnswer;
-use ibr::study::foreign::{BaseTable, Correction as Fitted, judge, on_base, read_correction};
+use ibr::study::foreign::{BaseTable, ForeignCorrection, judge, on_base, read_correction};
 use numpy::ndarray::Array3;
 use numpy::{IntoPyArray, PyArray3};
 use pyo3::prelude::*;
@@ -43,7 +43,7 @@ impl Base {
 /// What a diagnosis adds to another simulator's predictions.
 #[pyclass(frozen, module = "ibr")]
 pub struct Correction {
-    fitted: Fitted,
+    fitted: ForeignCorrection,
 }
 
 #[pymethods]
@@ -54,7 +54,7 @@ impl Correction {
         let found = diagnosed.found().ok_or_else(|| refused("not a diagnosis", "give the result of diagnose()"))?;
         let evidence = all_evidence(&data);
         let file = scenario.file()?;
-        let fitted = py.detach(|| Fitted::of(file, &ibr::extend(file, found)?, &evidence));
+        let fitted = py.detach(|| ForeignCorrection::of(file, &ibr::extend(file, found)?, &evidence));
         fitted.map(|fitted| Correction { fitted }).map_err(raised)
     }
 

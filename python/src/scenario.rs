@@ -3,7 +3,7 @@
 use crate::arrays::{Numbers, matrix, numbers, vector};
 use crate::errors::{raised, refused};
 use crate::inputs::{Change, Pressures, hash_of, places};
-use crate::source::Source;
+use crate::source::ScenarioSource;
 use crate::states::{State, states};
 use ibr::models::{Aim, CHANNELS, GASES, Limits, Loads, Prediction, Target};
 use ibr::{Follower, Predictor, ScenarioFile};
@@ -18,7 +18,7 @@ use std::sync::{Arc, OnceLock};
 /// Pressures are gauge pressures in kPa, lengths mm, angles degrees, times seconds. It pickles, compares and hashes by its text.
 #[pyclass(frozen, module = "ibr")]
 pub struct Scenario {
-    source: Arc<Source>,
+    source: Arc<ScenarioSource>,
     robot: Arc<Predictor>,
     /// For many states, of a robot whose numbers were set without its text.
     often: OnceLock<Arc<Predictor>>,
@@ -27,7 +27,7 @@ pub struct Scenario {
 impl Scenario {
     pub fn of(file: ScenarioFile) -> Scenario {
         let (robot, base) = (Arc::new(Predictor::new(&file)), Arc::new(file));
-        let source = Source { base: base.clone(), changes: Vec::new(), file: OnceLock::from(base) };
+        let source = ScenarioSource { base: base.clone(), changes: Vec::new(), file: OnceLock::from(base) };
         Scenario { source: Arc::new(source), robot: robot.clone(), often: OnceLock::from(robot) }
     }
 
@@ -48,7 +48,7 @@ impl Scenario {
         let settings = set.iter().map(Change::setting).collect::<Option<Vec<_>>>()?;
         let scenario = self.robot.scenario.with_numbers(&settings)?;
         let changes = [&self.source.changes[..], set].concat();
-        let source = Source { base: self.source.base.clone(), changes, file: OnceLock::new() };
+        let source = ScenarioSource { base: self.source.base.clone(), changes, file: OnceLock::new() };
         let robot = Arc::new(Predictor::for_few(scenario));
         Some(Scenario { source: Arc::new(source), robot, often: OnceLock::new() })
     }

@@ -7,13 +7,13 @@ use pyo3::prelude::*;
 use std::sync::{Arc, OnceLock};
 
 /// The text of a scenario, or its source text with the numbers that were set.
-pub(crate) struct Source {
+pub(crate) struct ScenarioSource {
     pub base: Arc<ScenarioFile>,
     pub changes: Vec<Change>,
     pub file: OnceLock<Arc<ScenarioFile>>,
 }
 
-impl Source {
+impl ScenarioSource {
     /// With its text, which is written at the first use.
     pub(crate) fn file(&self) -> PyResult<&Arc<ScenarioFile>> {
         if let Some(file) = self.file.get() {

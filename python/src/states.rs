@@ -1,7 +1,7 @@
 use crate::arrays::{matrix, rows_mm, vector, with_z};
 use crate::errors::raised;
 use crate::inputs::hash_of;
-use crate::source::Source;
+use crate::source::ScenarioSource;
 use ibr::models::{CHANNELS, Loads, Prediction, Tip};
 use ibr::pages::predicted_files;
 use ibr::shown::predicted::{PredictedState, above_limit, beyond_words, text};
@@ -19,7 +19,7 @@ const LINE_POINTS: usize = 101;
 #[pyclass(frozen, module = "ibr")]
 pub struct State {
     robot: Arc<Predictor>,
-    source: Arc<Source>,
+    source: Arc<ScenarioSource>,
     loads: Loads,
     tip: Tip,
     markers_m: Vec<[f64; 2]>,
@@ -30,7 +30,12 @@ pub struct State {
 }
 
 impl State {
-    pub(crate) fn new(robot: &Arc<Predictor>, source: &Arc<Source>, loads: Loads, at: &Prediction) -> PyResult<State> {
+    pub(crate) fn new(
+        robot: &Arc<Predictor>,
+        source: &Arc<ScenarioSource>,
+        loads: Loads,
+        at: &Prediction,
+    ) -> PyResult<State> {
         let (tip, markers_m) = (at.tip, at.markers.clone());
         let markers_z_m = robot.model.is_spatial().then(|| at.markers_z_m.clone());
         let (robot, source) = (robot.clone(), source.clone());

@@ -6,7 +6,7 @@ use crate::ReportError;
 const LARGEST: f64 = 1e15;
 
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Axis {
+pub(crate) struct ChartAxis {
     /// Data range, lower end first (log10 of it on a logarithmic axis).
     pub(crate) range: [f64; 2],
     pub(crate) pixels: [f64; 2],
@@ -15,7 +15,7 @@ pub(crate) struct Axis {
     pub(crate) seconds: bool,
 }
 
-impl Axis {
+impl ChartAxis {
     /// A linear axis over all finite values with a margin; it starts at zero when zero is near.
     pub(crate) fn linear(values: impl Iterator<Item = f64>, chart: &'static str) -> Result<Self, ReportError> {
         let [low, high] = extent(values, chart)?;
@@ -23,25 +23,25 @@ impl Axis {
         let zero_near = |end: f64, other: f64| end * other >= 0.0 && end.abs() < 0.35 * other.abs();
         let lower = if low == 0.0 || (low > 0.0 && zero_near(low, high)) { 0.0 } else { low - 0.06 * span };
         let upper = if high == 0.0 || (high < 0.0 && zero_near(high, low)) { 0.0 } else { high + 0.06 * span };
-        Ok(Axis::exact(if lower < upper { [lower, upper] } else { [lower, lower + 1.0] }))
+        Ok(ChartAxis::exact(if lower < upper { [lower, upper] } else { [lower, lower + 1.0] }))
     }
 
     pub(crate) fn exact(range: [f64; 2]) -> Self {
-        Axis { range, pixels: [0.0, 1.0], log: false, seconds: false }
+        ChartAxis { range, pixels: [0.0, 1.0], log: false, seconds: false }
     }
 
     /// A linear axis over all finite values with a small rim.
     pub(crate) fn padded(values: impl Iterator<Item = f64>, chart: &'static str) -> Result<Self, ReportError> {
         let [low, high] = extent(values, chart)?;
         let pad = if high > low { 0.04 * (high - low) } else { 0.1 * high.abs().max(1.0) };
-        Ok(Axis::exact([low - pad, high + pad]))
+        Ok(ChartAxis::exact([low - pad, high + pad]))
     }
 
     /// A logarithmic axis over all positive finite values, at least one decade wide, with a margin.
     pub(crate) fn log(values: impl Iterator<Item = f64>, chart: &'static str) -> Result<Self, ReportError> {
         let [low, high] = extent(values.filter(|v| *v > 0.0).map(f64::log10), chart)?;
         let pad = (0.06 * (high - low)).max(0.5 * (1.0 - (high - low)).max(0.0)).max(0.1);
-        Ok(Axis { log: true, ..Axis::exact([low - pad, high + pad]) })
+        Ok(ChartAxis { log: true, ..ChartAxis::exact([low - pad, high + pad]) })
     }
 
     pub(crate) fn at(&self, value: f64) -> f64 {
@@ -198,38 +198,38 @@ fn superscript(power: i32) -> String {
 mod tests {
     use super::*;
 
-    fn labels(axis: &Axis, target: usize) -> Vec<String> {
+    fn labels(axis: &ChartAxis, target: usize) -> Vec<String> {
         axis.ticks(target).into_iter().map(|tick| tick.1).collect()
     }
 
     #[test]
     fn linear_ticks_are_round_and_inside() {
-        let axis = Axis::linear([0.0, 161.6].into_iter(), "test").unwrap();
+        let axis = ChartAxis::linear([0.0, 161.6].into_iter(), "test").unwrap();
         assert_eq!(labels(&axis, 4), ["0", "50", "100", "150"]);
-        let axis = Axis::exact([-0.03, 0.03]);
+        let axis = ChartAxis::exact([-0.03, 0.03]);
         assert_eq!(labels(&axis, 5), ["−0.02", "0.00", "0.02"]);
     }
 
     #[test]
     fn logarithmic_ticks_name_decades() {
-        let axis = Axis::log([1e-6, 1e3].into_iter(), "test").unwrap();
+        let axis = ChartAxis::log([1e-6, 1e3].into_iter(), "test").unwrap();
         assert_eq!(labels(&axis, 5), ["10⁻⁶", "0.001", "1", "1000"]);
     }
 
     #[test]
     fn equal_values_still_give_a_range() {
         for value in [0.0, 5.0, -5.0, 1e-300] {
-            let axis = Axis::linear([value; 3].into_iter(), "test").unwrap();
+            let axis = ChartAxis::linear([value; 3].into_iter(), "test").unwrap();
             assert!(axis.range[0] <= value && value <= axis.range[1] && axis.range[0] < axis.range[1], "{axis:?}");
         }
     }
 
     #[test]
     fn no_finite_value_and_absurd_values_are_errors() {
-        let none = Axis::linear([f64::NAN, f64::INFINITY].into_iter(), "test");
+        let none = ChartAxis::linear([f64::NAN, f64::INFINITY].into_iter(), "test");
         assert!(matches!(none, Err(ReportError::NothingToDraw { chart: "test" })));
-        assert!(matches!(Axis::linear([0.0, 1e300].into_iter(), "test"), Err(ReportError::TooLarge { .. })));
-        assert!(matches!(Axis::log([-1.0, 0.0].into_iter(), "test"), Err(ReportError::NothingToDraw { .. })));
+        assert!(matches!(ChartAxis::linear([0.0, 1e300].into_iter(), "test"), Err(ReportError::TooLarge { .. })));
+        assert!(matches!(ChartAxis::log([-1.0, 0.0].into_iter(), "test"), Err(ReportError::NothingToDraw { .. })));
     }
 
     #[test]

@@ -17,7 +17,7 @@ pub struct Chart {
     /// Marks in the order of drawing; later ones cover earlier ones.
     pub marks: Vec<Mark>,
     /// Entries of the legend; empty for a chart without one.
-    pub keys: Vec<Key>,
+    pub keys: Vec<LegendEntry>,
     /// What the colours of cells say, and the value of the strongest.
     pub heat: Option<(String, f64)>,
     /// A line below the plot; empty for none.
@@ -161,7 +161,7 @@ impl Bar {
 
 /// One entry of the legend: a sample and its name.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Key {
+pub struct LegendEntry {
     /// Kind of sample that the legend shows.
     pub look: KeyLook,
     /// Colour of the sample, the one of the series.
@@ -170,7 +170,7 @@ pub struct Key {
     pub name: String,
 }
 
-/// How a [`Key`] shows a series.
+/// How a [`LegendEntry`] shows a series.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum KeyLook {
     /// Solid line, the sample of [`Mark::Line`].
@@ -187,10 +187,10 @@ pub enum KeyLook {
     Patch,
 }
 
-impl Key {
+impl LegendEntry {
     /// Makes an entry of the legend from sample, colour and name.
-    pub fn new(look: KeyLook, ink: Ink, name: &str) -> Key {
-        Key { look, ink, name: name.into() }
+    pub fn new(look: KeyLook, ink: Ink, name: &str) -> LegendEntry {
+        LegendEntry { look, ink, name: name.into() }
     }
 }
 

@@ -1,7 +1,7 @@
 //! A chart as a drawing: title, legend and caption. `plane` and `rows` draw the marks.
 
-use crate::axis::{Axis, extent};
-use crate::chart::{Chart, Key, KeyLook, Mark, Space};
+use crate::axis::{ChartAxis, extent};
+use crate::chart::{Chart, KeyLook, LegendEntry, Mark, Space};
 use crate::palette::Ink;
 use crate::paper::{RIM, TEXT};
 use crate::scene::{Anchor, Scene};
@@ -20,17 +20,19 @@ impl Chart {
         extent(self.marks.iter().flat_map(Mark::own), name)?;
         let reach = |k: usize| self.marks.iter().flat_map(move |mark| mark.reach(k));
         let axes = match &self.space {
-            Space::Plane => [Axis::linear(reach(0), name)?, Axis::linear(reach(1), name)?],
-            Space::Equal => [Axis::padded(reach(0), name)?, Axis::padded(reach(1), name)?],
-            Space::Log => [Axis { seconds: true, ..Axis::log(reach(0), name)? }, Axis::log(reach(1), name)?],
-            Space::Rows(_) => [Axis::linear(reach(0), name)?, Axis::exact([0.0, 1.0])],
-            Space::Grid(..) => [Axis::exact([0.0, 1.0]), Axis::exact([0.0, 1.0])],
+            Space::Plane => [ChartAxis::linear(reach(0), name)?, ChartAxis::linear(reach(1), name)?],
+            Space::Equal => [ChartAxis::padded(reach(0), name)?, ChartAxis::padded(reach(1), name)?],
+            Space::Log => {
+                [ChartAxis { seconds: true, ..ChartAxis::log(reach(0), name)? }, ChartAxis::log(reach(1), name)?]
+            }
+            Space::Rows(_) => [ChartAxis::linear(reach(0), name)?, ChartAxis::exact([0.0, 1.0])],
+            Space::Grid(..) => [ChartAxis::exact([0.0, 1.0]), ChartAxis::exact([0.0, 1.0])],
         };
         paint::paint(&scene(self, axes))
     }
 }
 
-fn scene(chart: &Chart, axes: [Axis; 2]) -> Scene {
+fn scene(chart: &Chart, axes: [ChartAxis; 2]) -> Scene {
     let mut scene = Scene::new();
     let top = title(&mut scene, &chart.title);
     let top = legend(&mut scene, top, &chart.keys);
@@ -60,7 +62,7 @@ fn title(scene: &mut Scene, title: &str) -> f64 {
 }
 
 /// Draws legend rows from `y` on and returns the height below them.
-fn legend(scene: &mut Scene, y: f64, keys: &[Key]) -> f64 {
+fn legend(scene: &mut Scene, y: f64, keys: &[LegendEntry]) -> f64 {
     let (mut x, mut row) = (RIM, y + 10.0);
     for key in keys.iter().filter(|key| !key.name.trim().is_empty()) {
         let name = text::fit(&key.name, TEXT, WIDTH - 2.0 * RIM - 32.0);
@@ -75,7 +77,7 @@ fn legend(scene: &mut Scene, y: f64, keys: &[Key]) -> f64 {
     if keys.is_empty() { y } else { row + 16.0 }
 }
 
-fn swatch(scene: &mut Scene, [x, y]: [f64; 2], key: &Key) {
+fn swatch(scene: &mut Scene, [x, y]: [f64; 2], key: &LegendEntry) {
     let (line, middle, ink) = ([[x, y], [x + 24.0, y]], [x + 12.0, y], key.ink);
     match key.look {
         KeyLook::Line => scene.line(&line, ink, 2.4),

@@ -1,7 +1,7 @@
 //! Figures that several pages have, as charts.
 
 use crate::axis::{common_decimals, number, short_number};
-use crate::chart::{Bar, Chart, ChartRow, Key, KeyLook, Mark, Point, Space, finite};
+use crate::chart::{Bar, Chart, ChartRow, KeyLook, LegendEntry, Mark, Point, Space, finite};
 use crate::palette::{Ink, SERIES};
 use crate::scene::Symbol;
 use crate::{Drawn, ReportError, at_most, same_length};
@@ -110,7 +110,7 @@ pub fn lines(data: &Lines) -> Result<Drawn, ReportError> {
             let (at, error, open) = (*at, [0.0, half(k)], open == Some(true));
             points.push(Mark::Point(Point { at, error, ink, symbol, open, ..Point::default() }));
         }
-        keys.push(Key::new(look, ink, series.name.trim()));
+        keys.push(LegendEntry::new(look, ink, series.name.trim()));
     }
     keys.retain(|key| !key.name.is_empty());
     marks.extend(points);
@@ -172,7 +172,7 @@ pub fn shapes(data: &Shapes) -> Result<Drawn, ReportError> {
     let measured = some(|p| !p.measured.is_empty()).then_some((KeyLook::Measured(Symbol::Circle), "measured"));
     let at_rest = (!data.rest_mm.is_empty()).then_some((KeyLook::Dashed, "at rest"));
     let keys = [measured, predicted, at_rest].into_iter().flatten();
-    let keys = keys.map(|(look, name)| Key::new(look, Ink::Muted, name)).collect();
+    let keys = keys.map(|(look, name)| LegendEntry::new(look, Ink::Muted, name)).collect();
     let across = if data.across.is_empty() { "y sideways [mm]" } else { &data.across };
     let mut chart = Chart::new(&data.title, "x along the robot at rest [mm]", across);
     (chart.space, chart.marks, chart.keys) = (Space::Equal, marks, keys);
@@ -218,7 +218,7 @@ pub fn bars(
         same_length("bars", "values in a series", groups.len(), values.len())?;
         let ink = if *grey { Ink::Muted } else { Ink::Series(colour) };
         colour += usize::from(!grey);
-        keys.push(Key::new(KeyLook::Patch, ink, name));
+        keys.push(LegendEntry::new(KeyLook::Patch, ink, name));
         for (row, value) in values.iter().enumerate() {
             marks.push(Mark::Bar(Bar { lane, ..Bar::to(row, *value, ink, number(*value, digits)) }));
         }
@@ -301,13 +301,13 @@ pub fn ledger(title: &str, value_label: &str, terms: &[String], bars: &[LedgerCa
         let shown = if sum.abs() < 1e-4 * largest { number(0.0, 0) } else { short_number(sum) };
         cases.push(ChartRow { aside: format!("sum {shown}"), ink: Ink::Muted, ..ChartRow::above(name, 1) });
     }
-    let key = |(i, name): (usize, &String)| Key::new(KeyLook::Patch, Ink::Series(i), name);
+    let key = |(i, name): (usize, &String)| LegendEntry::new(KeyLook::Patch, Ink::Series(i), name);
     let keys = terms.iter().enumerate().map(key).collect();
     rows(title, value_label, cases, marks, keys).draw("ledger")
 }
 
 /// Makes a chart of rows over one axis of numbers.
-pub fn rows(title: &str, value_label: &str, rows: Vec<ChartRow>, marks: Vec<Mark>, keys: Vec<Key>) -> Chart {
+pub fn rows(title: &str, value_label: &str, rows: Vec<ChartRow>, marks: Vec<Mark>, keys: Vec<LegendEntry>) -> Chart {
     let mut chart = Chart::new(title, value_label, "");
     (chart.space, chart.marks, chart.keys) = (Space::Rows(rows), marks, keys);
     chart
@@ -318,9 +318,9 @@ pub fn decimals(values: impl Iterator<Item = f64>) -> usize {
     common_decimals(values.filter(|v| v.is_finite()).fold(0.0, |a, b| f64::max(a, b.abs())))
 }
 
-fn rule(target: Option<(String, f64)>, marks: &mut Vec<Mark>, keys: &mut Vec<Key>) {
+fn rule(target: Option<(String, f64)>, marks: &mut Vec<Mark>, keys: &mut Vec<LegendEntry>) {
     if let Some((name, value)) = target.filter(|(_, value)| value.is_finite()) {
         marks.push(Mark::Rule(value));
-        keys.push(Key::new(KeyLook::Dashed, Ink::Ink, &name));
+        keys.push(LegendEntry::new(KeyLook::Dashed, Ink::Ink, &name));
     }
 }

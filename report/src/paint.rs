@@ -1,6 +1,6 @@
 //! Puts a scene on the SVG and the bitmap backend of plotters, by one generic routine.
 
-use crate::scene::{Anchor, Point, Scene, Stroke};
+use crate::scene::{Anchor, Point, Scene, SceneMark};
 use crate::{Drawn, ReportError, text};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -12,7 +12,7 @@ const PNG_SCALE: usize = if cfg!(test) { 1 } else { 3 };
 /// The bitmap is painted this many times larger and averaged, for smooth edges.
 const OVERSAMPLE: usize = 2;
 
-struct Surface {
+struct DrawingSurface {
     scale: f64,
     /// plotters' font size for one em of one unit.
     size_per_em: f64,
@@ -31,7 +31,7 @@ pub(crate) fn paint(scene: &Scene) -> Result<Drawn, ReportError> {
 
 fn svg(scene: &Scene) -> Result<String, ReportError> {
     let size = pixels(scene, SVG_SCALE);
-    let surface = Surface { scale: SVG_SCALE, size_per_em: 1.24, baseline_em: 0.76, by_letter: false };
+    let surface = DrawingSurface { scale: SVG_SCALE, size_per_em: 1.24, baseline_em: 0.76, by_letter: false };
     let mut out = String::new();
     {
         let root = SVGBackend::with_string(&mut out, size).into_drawing_area();
@@ -55,7 +55,8 @@ fn png(scene: &Scene) -> Result<Vec<u8>, ReportError> {
     let scale = (PNG_SCALE * OVERSAMPLE) as f64;
     let size = pixels(scene, scale);
     let height_per_em = text::height_per_em()?;
-    let surface = Surface { scale, size_per_em: height_per_em, baseline_em: 0.5 * height_per_em, by_letter: true };
+    let surface =
+        DrawingSurface { scale, size_per_em: height_per_em, baseline_em: 0.5 * height_per_em, by_letter: true };
     let mut buffer = vec![255; 3 * size.0 as usize * size.1 as usize];
     {
         let root = BitMapBackend::with_buffer(&mut buffer, size).into_drawing_area();
@@ -101,25 +102,25 @@ fn encode(rgb: &[u8], width: u32, height: u32) -> Result<Vec<u8>, ReportError> {
 fn marks<DB: DrawingBackend>(
     root: &DrawingArea<DB, plotters::coord::Shift>,
     scene: &Scene,
-    surface: &Surface,
+    surface: &DrawingSurface,
 ) -> Result<(), ReportError> {
     root.fill(&WHITE).map_err(drawing)?;
     for mark in &scene.marks {
         match mark {
-            Stroke::Line { points, ink, width } => stroke(root, surface, points, ink.rgb(), *width)?,
-            Stroke::Fill { points, ink, alpha } => {
+            SceneMark::Line { points, ink, width } => stroke(root, surface, points, ink.rgb(), *width)?,
+            SceneMark::Fill { points, ink, alpha } => {
                 let [r, g, b] = ink.rgb();
                 let corners = surface.distinct(points);
                 if corners.len() > 2 {
                     root.draw(&Polygon::new(corners, RGBColor(r, g, b).mix(*alpha).filled())).map_err(drawing)?;
                 }
             }
-            Stroke::Disc { centre, radius, ink } => {
+            SceneMark::Disc { centre, radius, ink } => {
                 let ([r, g, b], radius) = (ink.rgb(), (radius * surface.scale).round().max(1.0) as u32);
                 let filled = RGBColor(r, g, b).filled();
                 root.draw(&Circle::new(surface.whole(*centre), radius, filled)).map_err(drawing)?;
             }
-            Stroke::Text { .. } => letters(root, surface, mark)?,
+            SceneMark::Text { .. } => letters(root, surface, mark)?,
         }
     }
     Ok(())
@@ -128,7 +129,7 @@ fn marks<DB: DrawingBackend>(
 /// A line; on the bitmap segment by segment with round joins, which the backend does not know.
 fn stroke<DB: DrawingBackend>(
     root: &DrawingArea<DB, plotters::coord::Shift>,
-    surface: &Surface,
+    surface: &DrawingSurface,
     points: &[Point],
     [r, g, b]: [u8; 3],
     width: f64,
@@ -150,10 +151,10 @@ fn stroke<DB: DrawingBackend>(
 
 fn letters<DB: DrawingBackend>(
     root: &DrawingArea<DB, plotters::coord::Shift>,
-    surface: &Surface,
-    mark: &Stroke,
+    surface: &DrawingSurface,
+    mark: &SceneMark,
 ) -> Result<(), ReportError> {
-    let Stroke::Text { at, text, size, ink, anchor } = mark else { return Ok(()) };
+    let SceneMark::Text { at, text, size, ink, anchor } = mark else { return Ok(()) };
     let [r, g, b] = ink.rgb();
     let pixel_size = size * surface.size_per_em * surface.scale;
     let top = at[1] - size * surface.baseline_em;
@@ -176,7 +177,7 @@ fn letters<DB: DrawingBackend>(
     Ok(())
 }
 
-impl Surface {
+impl DrawingSurface {
     fn whole(&self, [x, y]: Point) -> (i32, i32) {
         ((x * self.scale).round() as i32, (y * self.scale).round() as i32)
     }

@@ -1,6 +1,6 @@
 //! What the plane and rows share: sizes, texts on paper, the x axis.
 
-use crate::axis::Axis;
+use crate::axis::ChartAxis;
 use crate::palette::Ink;
 use crate::scene::{Anchor, Scene};
 use crate::{WIDTH, text};
@@ -18,7 +18,7 @@ pub(crate) fn on_paper(scene: &mut Scene, at: [f64; 2], words: &str, ink: Ink, a
 }
 
 /// Draws the x axis under a plot area that spans `top` to `bottom`, and sets the height of the scene.
-pub(crate) fn x_axis(scene: &mut Scene, x: &Axis, label: &str, [top, bottom]: [f64; 2]) {
+pub(crate) fn x_axis(scene: &mut Scene, x: &ChartAxis, label: &str, [top, bottom]: [f64; 2]) {
     let [left, right] = x.pixels;
     for (value, label) in x.ticks(((right - left) / 70.0) as usize) {
         let at = x.at(value);

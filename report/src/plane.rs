@@ -1,6 +1,6 @@
 //! Marks over two axes of numbers.
 
-use crate::axis::Axis;
+use crate::axis::ChartAxis;
 use crate::chart::{Chart, Mark, Space, finite};
 use crate::palette::Ink;
 use crate::paper::{RIM, TEXT, on_paper, x_axis};
@@ -15,7 +15,7 @@ const HEIGHT: f64 = 270.0;
 const BOUNDS: [f64; 2] = [110.0, 520.0];
 
 /// Draws axes and marks from `top` down, and sets the height of the scene.
-pub(crate) fn draw(scene: &mut Scene, chart: &Chart, [x, y]: [Axis; 2], top: f64) {
+pub(crate) fn draw(scene: &mut Scene, chart: &Chart, [x, y]: [ChartAxis; 2], top: f64) {
     let tips = chart.marks.iter().filter_map(|mark| match mark {
         Mark::Tip(_, label, _) => Some(text::width(&text::fit(label, TEXT, TIP), TEXT)),
         _ => None,
@@ -34,14 +34,14 @@ pub(crate) fn draw(scene: &mut Scene, chart: &Chart, [x, y]: [Axis; 2], top: f64
 }
 
 struct Plane {
-    x: Axis,
-    y: Axis,
+    x: ChartAxis,
+    y: ChartAxis,
 }
 
 /// Lays the axes out and draws grid, ticks and labels.
-fn frame(scene: &mut Scene, chart: &Chart, [mut x, mut y]: [Axis; 2], (top, right): (f64, f64)) -> Plane {
+fn frame(scene: &mut Scene, chart: &Chart, [mut x, mut y]: [ChartAxis; 2], (top, right): (f64, f64)) -> Plane {
     let head = if chart.y_label.trim().is_empty() { 8.0 } else { 26.0 };
-    let span = |axis: &Axis| axis.range[1] - axis.range[0];
+    let span = |axis: &ChartAxis| axis.range[1] - axis.range[0];
     let height = match chart.space {
         Space::Equal => ((WIDTH - 62.0 - right) * span(&y) / span(&x)).clamp(BOUNDS[0], BOUNDS[1]),
         _ => HEIGHT,

@@ -1,6 +1,6 @@
 //! Marks in rows: bars over an axis of numbers, and cells under heads of columns.
 
-use crate::axis::{Axis, number};
+use crate::axis::{ChartAxis, number};
 use crate::chart::{Bar, Chart, ChartColumn, ChartRow, Mark, RowPlace};
 use crate::palette::Ink;
 use crate::paper::{RIM, TEXT, centred, on_paper, x_axis};
@@ -28,7 +28,7 @@ fn names(rows: &[ChartRow]) -> f64 {
 }
 
 /// Draws bars from `top` down, and sets the height of the scene.
-pub(crate) fn bars(scene: &mut Scene, chart: &Chart, rows: &[ChartRow], [mut x, _]: [Axis; 2], top: f64) {
+pub(crate) fn bars(scene: &mut Scene, chart: &Chart, rows: &[ChartRow], [mut x, _]: [ChartAxis; 2], top: f64) {
     let bars: Vec<&Bar> =
         chart.marks.iter().filter_map(|m| if let Mark::Bar(bar) = m { Some(bar) } else { None }).collect();
     let outside = bars.iter().filter(|bar| !bar.inside).map(|bar| text::width(&bar.text, TEXT));
@@ -81,7 +81,7 @@ fn name(scene: &mut Scene, row: &ChartRow, top: f64) {
 }
 
 /// Bars next to each other, and the text at their end.
-fn lane(scene: &mut Scene, x: &Axis, bars: &[&Bar], top: f64) {
+fn lane(scene: &mut Scene, x: &ChartAxis, bars: &[&Bar], top: f64) {
     let (bottom, middle) = (top + LANE - 2.0, top + 0.5 * (LANE - 2.0));
     let mut end = x.at(bars.first().map_or(0.0, |bar| bar.span[0]).max(x.range[0]));
     for bar in bars {
@@ -113,7 +113,7 @@ fn lane(scene: &mut Scene, x: &Axis, bars: &[&Bar], top: f64) {
     }
 }
 
-struct Grid {
+struct RowGrid {
     left: f64,
     tops: Vec<f64>,
     width: f64,
@@ -143,7 +143,7 @@ pub(crate) fn cells(scene: &mut Scene, chart: &Chart, (rows, columns): (&[ChartR
             }
         }
     }
-    let grid = Grid { left, tops, width, height };
+    let grid = RowGrid { left, tops, width, height };
     grid.cells(scene, &chart.marks);
     let below = grid.heads(scene, columns, bottom);
     centred(scene, &chart.x_label, [left + 0.5 * width * columns.len() as f64, below + 18.0]);
@@ -153,7 +153,7 @@ pub(crate) fn cells(scene: &mut Scene, chart: &Chart, (rows, columns): (&[ChartR
     }
 }
 
-impl Grid {
+impl RowGrid {
     fn x(&self, column: usize) -> f64 {
         self.left + column as f64 * self.width
     }

@@ -35,7 +35,7 @@ impl Symbol {
 }
 
 /// One thing to draw; lengths in design pixels.
-pub(crate) enum Stroke {
+pub(crate) enum SceneMark {
     Line { points: Vec<Point>, ink: Ink, width: f64 },
     Fill { points: Vec<Point>, ink: Ink, alpha: f64 },
     Disc { centre: Point, radius: f64, ink: Ink },
@@ -45,7 +45,7 @@ pub(crate) enum Stroke {
 pub(crate) struct Scene {
     pub(crate) width: f64,
     pub(crate) height: f64,
-    pub(crate) marks: Vec<Stroke>,
+    pub(crate) marks: Vec<SceneMark>,
 }
 
 impl Scene {
@@ -55,7 +55,7 @@ impl Scene {
     }
 
     pub(crate) fn line(&mut self, points: &[Point], ink: Ink, width: f64) {
-        self.marks.push(Stroke::Line { points: points.to_vec(), ink, width });
+        self.marks.push(SceneMark::Line { points: points.to_vec(), ink, width });
     }
 
     /// A dashed line with dashes of `on` and gaps of `off`.
@@ -89,7 +89,7 @@ impl Scene {
     }
 
     pub(crate) fn fill(&mut self, points: &[Point], ink: Ink, alpha: f64) {
-        self.marks.push(Stroke::Fill { points: points.to_vec(), ink, alpha });
+        self.marks.push(SceneMark::Fill { points: points.to_vec(), ink, alpha });
     }
 
     /// A marker of half-width `radius`; an open one has a coloured rim on paper.
@@ -103,7 +103,7 @@ impl Scene {
     fn solid(&mut self, symbol: Symbol, centre: Point, radius: f64, ink: Ink) {
         let corner = |x: f64, y: f64| [centre[0] + x * radius, centre[1] + y * radius];
         match symbol {
-            Symbol::Circle => self.marks.push(Stroke::Disc { centre, radius, ink }),
+            Symbol::Circle => self.marks.push(SceneMark::Disc { centre, radius, ink }),
             Symbol::Square => self.rect(corner(-0.9, -0.9), corner(0.9, 0.9), ink, 1.0),
             Symbol::Diamond => {
                 self.fill(&[corner(0.0, -1.25), corner(1.25, 0.0), corner(0.0, 1.25), corner(-1.25, 0.0)], ink, 1.0);
@@ -132,7 +132,7 @@ impl Scene {
 
     pub(crate) fn text(&mut self, at: Point, text: &str, size: f64, ink: Ink, anchor: Anchor) {
         let text = text::fit(text, size, self.width);
-        self.marks.push(Stroke::Text { at, text, size, ink, anchor });
+        self.marks.push(SceneMark::Text { at, text, size, ink, anchor });
     }
 
     /// A text whose capitals are centred on `at[1]`.
@@ -157,7 +157,7 @@ mod tests {
             .marks
             .iter()
             .map(|mark| match mark {
-                Stroke::Line { points, .. } => points.windows(2).map(|p| distance(p[0], p[1])).sum(),
+                SceneMark::Line { points, .. } => points.windows(2).map(|p| distance(p[0], p[1])).sum(),
                 _ => 0.0,
             })
             .sum();

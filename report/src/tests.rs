@@ -1,7 +1,7 @@
 //! Laws that every chart obeys: both formats for good data, an error or a drawing but never a panic for odd data; and what every
 //! page must hold.
 
-use crate::chart::{Bar, Chart, ChartColumn, ChartRow, Key, KeyLook, Mark, Point, RowPlace, Space};
+use crate::chart::{Bar, Chart, ChartColumn, ChartRow, KeyLook, LegendEntry, Mark, Point, RowPlace, Space};
 use crate::*;
 use std::collections::BTreeMap;
 
@@ -73,7 +73,7 @@ fn stacks(name: &str, v: &dyn Fn(usize) -> f64) -> Vec<Result<Drawn, ReportError
     let series = [bar(0), bar(1)];
     let case = (label(name), vec![v(0), v(1), v(2)]);
     let bar = |row: usize| Mark::Bar(Bar::to(row, v(row), Ink::Ink, number(v(row), 1)));
-    let keys = vec![Key::new(KeyLook::Patch, Ink::Grid, name)];
+    let keys = vec![LegendEntry::new(KeyLook::Patch, Ink::Grid, name)];
     let order = rows(name, name, vec![ChartRow::beside(name), ChartRow::beside(name)], vec![bar(0), bar(1)], keys);
     let (groups, terms) = ([label(name), label(name)], [label(name), label(name), label(name)]);
     let (rungs, grouped) = (ladder(name, name, &steps, target.clone()), bars(name, name, &groups, &series, target));

@@ -17,13 +17,13 @@ pub struct Exactly<const N: usize>(pub [f64; N]);
 
 impl<'de, const N: usize> Deserialize<'de> for Exactly<N> {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        from.deserialize_seq(Numbers)
+        from.deserialize_seq(ArrayVisitor)
     }
 }
 
-struct Numbers<const N: usize>;
+struct ArrayVisitor<const N: usize>;
 
-impl<'de, const N: usize> Visitor<'de> for Numbers<N> {
+impl<'de, const N: usize> Visitor<'de> for ArrayVisitor<N> {
     type Value = Exactly<N>;
     fn expecting(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(to, "an array of length {N}")

@@ -3,14 +3,14 @@ use crate::cli::AddArgs;
 use crate::prelude::*;
 use crate::shown::extension::{AddAnswer, steps_text};
 use compare::diagnosis::taken_away;
-use compare::extension::{Extension, Wish, add};
-use compare::foreign::Correction;
+use compare::extension::{EffectWish, Extension, add};
+use compare::foreign::ForeignCorrection;
 use compare::progress::part;
 use compare::progress::shares::READ;
 
 pub(super) fn run(args: &AddArgs, context: &mut Context) -> Result<Outcome> {
     let file = ibr::studies::scenario(&args.scenario)?;
-    let wish = Wish::read(&file, &args.effect, args.data.is_some())?;
+    let wish = EffectWish::read(&file, &args.effect, args.data.is_some())?;
     let evidence = match &args.data {
         Some(data) => inputs::all_evidence(&file, data, &args.fit, context)?,
         None if args.fit.also.is_empty() && args.fit.base.is_empty() => Vec::new(),
@@ -20,7 +20,8 @@ pub(super) fn run(args: &AddArgs, context: &mut Context) -> Result<Outcome> {
     let found = add(&file, &wish, &evidence, &options, &mut part(context.progress, [READ, 1.0]))?;
     let names: Vec<&str> = found.additions.iter().map(|a| a.name.as_str()).collect();
     let target = target(args, &names.join("-").replace(' ', "-"), context.force)?;
-    let correction = is_correction(&target).then(|| Correction::of(&file, &found, &evidence)?.text()).transpose()?;
+    let correction =
+        is_correction(&target).then(|| ForeignCorrection::of(&file, &found, &evidence)?.text()).transpose()?;
     write_whole(&[(target.clone(), correction.as_ref().unwrap_or(&found.file.text))], context)?;
     let target = target.display().to_string();
     let answer = AddAnswer::of(&file, &evidence, &found, &target)?;

@@ -32,7 +32,7 @@ fn discovery(args: &BenchArgs, context: &mut Context) -> Result<Outcome> {
     refuse_if(args.out.is_none() && args.shards.asked(), message, help)?;
     let (threads, program) = (context.threads, args.out.as_ref().map(|_| this_program()).transpose()?);
     args.out.as_deref().map_or(Ok(()), check_folder)?;
-    let bench = discovery::Work::plan(options, args.out.as_deref().zip(program.as_deref()))?;
+    let bench = discovery::DiscoveryWork::plan(options, args.out.as_deref().zip(program.as_deref()))?;
     if let Some(folder) = &args.out {
         let missing = || bench.missing(Shard::WHOLE);
         let work = Work { folder, parts: "sets", all: bench.pieces(), missing: &missing, may_fail: false };

@@ -150,7 +150,7 @@ fn ranking(d: &BenchDiagnosis) -> String {
         (false, true) => "!",
         (false, false) => "",
     };
-    let mut rows = Table::of(&d.ranked)
+    let mut rows = TextTable::of(&d.ranked)
         .words("", mark)
         .words("effect", |r| &r.effect)
         .words("value, 95 %", |r| listed(&r.parameters))

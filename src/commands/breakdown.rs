@@ -80,7 +80,7 @@ fn carried(row: &Parting) -> String {
 /// Every run at every pressure; then arm, width, height and volumes of both engines, where a run kept them.
 fn text(rows: &[Parting]) -> String {
     let percent = |share: Option<f64>| share.map(|d| 100.0 * d);
-    let all = Table::of(rows)
+    let all = TextTable::of(rows)
         .words("robot", |row| &row.robot)
         .right("mesh mm", |row| row.mesh_mm.to_string())
         .right("body kPa", |row| row.body_kpa.to_string())
@@ -92,7 +92,7 @@ fn text(rows: &[Parting]) -> String {
         .number("reduced tip mm", 1, |row| row.reduced_tip_mm)
         .signed("difference %", 0, |row| percent(row.difference))
         .right("carried by", |row| carried(row));
-    let mut shapes = Table::of(rows.iter().filter_map(|row| Some((row, row.shape.as_ref()?))))
+    let mut shapes = TextTable::of(rows.iter().filter_map(|row| Some((row, row.shape.as_ref()?))))
         .words("robot", |(row, _)| &row.robot)
         .right("body kPa", |(row, _)| row.body_kpa.to_string())
         .right("pouch mm", |(row, _)| row.pouch_mm.to_string())

@@ -84,7 +84,7 @@ fn scored(folder: &Path, entry: &Path) -> Result<Outcome> {
     })?;
     let score = entry::score_entry(folder, &name, &String::from_utf8_lossy(&bytes))?;
     let EntryScore { cases, verdicts_right, with_effect, first_true, among_names, mean_names, false_names } = &score;
-    let rows = Table::of(cases)
+    let rows = TextTable::of(cases)
         .words("case", |c| &c.case)
         .words("hidden", |c| c.hidden.join(", "))
         .words("verdict", |c| c.answer.verdict.clone().unwrap_or_default())
@@ -110,8 +110,10 @@ fn list() -> Outcome {
     text.push_str("\nNo effect of the catalogue describes these\n");
     text.push_str(&rows(&OUTSIDE.iter().collect::<Vec<_>>()));
     text.push_str("\nThe second law of each mechanism, for `ibr bench discovery --laws second`\n");
-    text +=
-        &Table::of(&inside).words("effect", |e| e.name).words("law: its source", |e| e.equation(Laws::Second)).text();
+    text += &TextTable::of(&inside)
+        .words("effect", |e| e.name)
+        .words("law: its source", |e| e.equation(Laws::Second))
+        .text();
     let entry = |effect: &'static HiddenEffect| HiddenEntry {
         name: effect.name,
         sentence: effect.sentence,
@@ -124,7 +126,7 @@ fn list() -> Outcome {
 }
 
 fn rows(effects: &[&HiddenEffect]) -> String {
-    let table = Table::of(effects).words("effect", |e| e.name).words("what happens", |e| e.sentence);
+    let table = TextTable::of(effects).words("effect", |e| e.name).words("what happens", |e| e.sentence);
     table.words("law", |e| e.equation(Laws::First)).text()
 }
 

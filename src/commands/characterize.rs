@@ -78,7 +78,7 @@ fn shown(found: &Characterized) -> String {
     let count = |d: Direction| format!("{} at {}°", found.of(d).count(), d.degrees());
     let directions = directions(&found.specimens).into_iter().map(count).collect::<Vec<_>>().join(", ");
     let mut text = format!("Specimens: {directions} ({})\n", found.provenance.word());
-    text += &Table::of(&found.quantities)
+    text += &TextTable::of(&found.quantities)
         .words("quantity", |q| &q.name)
         .words("how known", |q| &q.known)
         .right("mean", |q| digits(Some(q.scatter.mean)))
@@ -89,7 +89,7 @@ fn shown(found: &Characterized) -> String {
         .right("sd", |q| digits(q.scatter.sd))
         .right("n", |q| q.scatter.n.to_string())
         .text();
-    text += &Table::of(&found.specimens)
+    text += &TextTable::of(&found.specimens)
         .words("specimen", |s| &s.name)
         .right("direction", |s| format!("{}°", s.direction.degrees()))
         .number("slack [%]", 3, |s| Some(100.0 * s.slack).filter(|slack| *slack > 0.0))
@@ -101,7 +101,7 @@ fn shown(found: &Characterized) -> String {
     if !found.replays.is_empty() {
         text +=
             "Every test by the law that was made of them: law over test, at the end and rms of the largest stress\n";
-        text += &Table::of(&found.replays)
+        text += &TextTable::of(&found.replays)
             .words("law", |r| &r.law)
             .words("specimen", |r| &r.specimen)
             .words("direction", |r| format!("{}°", r.direction_deg))

@@ -26,7 +26,7 @@ fn check(spec: &str, scenario: Option<&str>, context: &mut Context) -> Result<Ou
     if let Some(bench) = data::bench::bench(spec)? {
         let check = BenchCheck { kind: bench.kind.name, rows: bench.rows.len(), provenance: bench.provenance };
         let words = format!("{spec}: {}, {} rows ({})\n", bench.kind.sentence, check.rows, check.provenance.word());
-        return Ok(Outcome::answer(words, "ibr.data.check", &CheckedTable { check: Check::Bench(check) }));
+        return Ok(Outcome::answer(words, "ibr.data.check", &CheckedTable { check: TableCheck::Bench(check) }));
     }
     let evidence = inputs::evidence(spec, context)?;
     let Evidence { dataset, about, .. } = &evidence;
@@ -51,7 +51,7 @@ fn check(spec: &str, scenario: Option<&str>, context: &mut Context) -> Result<Ou
         report.warnings.push(found.words);
     }
     let words = check_text(&report);
-    Ok(Outcome::answer(words, "ibr.data.check", &CheckedTable { check: Check::Markers(Box::new(report)) }))
+    Ok(Outcome::answer(words, "ibr.data.check", &CheckedTable { check: TableCheck::Markers(Box::new(report)) }))
 }
 
 /// A note on a table with z or several channels, whose frame no geometry alone can check.
@@ -101,12 +101,12 @@ struct Generated {
 #[derive(Serialize)]
 struct CheckedTable {
     /// Result of the check, by the kind of table
-    check: Check,
+    check: TableCheck,
 }
 
 #[derive(Serialize)]
 #[serde(untagged)]
-enum Check {
+enum TableCheck {
     /// Table of markers, with holds and runs
     Markers(Box<CheckReport>),
     /// In a table of bench tests
@@ -132,7 +132,7 @@ fn check_text(report: &CheckReport) -> String {
         holds.len(),
         markers.len(),
     );
-    out += &Table::of(holds)
+    out += &TextTable::of(holds)
         .right("P [kPa]", |h| {
             let more = h.p_act_channels_kpa.iter().skip(1).map(|p| format!("/{p:.2}"));
             format!("{:.2}{}", h.p_act_kpa, more.collect::<String>())
@@ -143,7 +143,7 @@ fn check_text(report: &CheckReport) -> String {
         .number("scatter of runs [mm]", 2, |h| h.scatter_mm)
         .when(holds.iter().all(|h| h.gauge_kpa.is_some()), |t| t.number("gauge [kPa]", 2, |h| h.gauge_kpa))
         .text();
-    out += &Table::of(markers)
+    out += &TextTable::of(markers)
         .words("marker", |m| &m.name)
         .number("station [mm]", 1, |m| m.s_mm)
         .number("scatter of runs [mm]", 2, |m| m.scatter_mm)

@@ -2,9 +2,9 @@ use super::pattern::usual_pattern;
 use crate::cli::DesignArgs;
 use crate::prelude::*;
 use fem::FemError;
-use fem::session::{FeRun, Job, Progress, Settings, simulate, simulate_all};
+use fem::session::{FeRun, Progress, RunJob, RunSettings, simulate, simulate_all};
 use ibr::pages::design_files;
-use sweep::design::{Checked, Design, End, Held, Miss, Round, Rounds, Spread, Wish, misses_of_reading};
+use sweep::design::{Checked, Design, Held, Miss, Round, Rounds, Spread, StopReason, Wish, misses_of_reading};
 
 /// Pictures of a finite element run that go with its design.
 const PICTURES: [&str; 3] = ["side.png", "section.png", "cut.png"];
@@ -65,12 +65,13 @@ fn checked(wish: &Wish, rounds: &Rounds, folder: &Path, context: &mut Context) -
     let set = [("fem.pressures_kpa".to_string(), format!("[{}]", fem::session::rounded(1e-3 * all[0])))];
     let file = found.file.with(&set)?;
     let source = file.source(&wish.folder);
-    let mut settings = Settings { frames: false, threads: context.threads, maker: maker(), ..Settings::default() };
+    let mut settings =
+        RunSettings { frames: false, threads: context.threads, maker: maker(), ..RunSettings::default() };
     let made = match rounds.corrections {
         0 => context.fem(|progress| simulate(&source, &settings, progress)),
         more => {
             settings.folder = Some(folder.join("runs"));
-            let job = Job { source, what: format!("check {number} of at most {}", 1 + more), folder: None };
+            let job = RunJob { source, what: format!("check {number} of at most {}", 1 + more), folder: None };
             let made = context.fem(|progress| simulate_all(&[job], &settings, progress));
             made.and_then(|mut made| made.runs.remove(0))
         }
@@ -119,7 +120,7 @@ fn design_text(wish: &Wish, rounds: &Rounds) -> String {
         (false, _) => "no design that was tried has the wish; the nearest misses it by",
     };
     let mut text = format!("{name}: {by}{what} {within}\n\n");
-    text += &Table::of(&found.chosen).words("chosen", |(key, _)| key).right("value", |(_, value)| value).text();
+    text += &TextTable::of(&found.chosen).words("chosen", |(key, _)| key).right("value", |(_, value)| value).text();
     text += &format!(
         "Pressure {} kPa, body {} kPa.\n\n",
         pressure_words(&found.loads),
@@ -133,7 +134,7 @@ fn design_text(wish: &Wish, rounds: &Rounds) -> String {
         );
     }
     let other = |miss: &&Miss| best.by_elements(&miss.what);
-    text += &Table::of(&found.misses)
+    text += &TextTable::of(&found.misses)
         .words("wish [mm]", |miss| &miss.what)
         .right("target", |miss| shown(&miss.wanted))
         .right("model, predicted", |miss| shown(&miss.found))
@@ -201,13 +202,13 @@ fn rounds_text(wish: &Wish, rounds: &Rounds) -> String {
     let head: Vec<&str> =
         std::iter::once("design").chain(keys).chain(["model", "corrected", "finite elements"]).collect();
     let mut text = "\nDesigns and their largest miss [mm]: by the model, by the model corrected by finite elements, and by finite elements.\n".to_string();
-    text += &Table::finished(&head, 0, rounds.all.iter().enumerate().map(row).collect()).text();
+    text += &TextTable::finished(&head, 0, rounds.all.iter().enumerate().map(row).collect()).text();
     let parts =
         rounds.all.iter().enumerate().flat_map(|(k, round)| {
             round.design.misses.iter().enumerate().map(move |(at, miss)| (k + 1, round, at, miss))
         });
     text += "\n";
-    text += &Table::of(parts)
+    text += &TextTable::of(parts)
         .words("design", |(number, ..)| number.to_string())
         .words("wish [mm]", |(.., miss)| &miss.what)
         .right("model, predicted", |(.., miss)| shown(&miss.found))
@@ -231,18 +232,18 @@ fn rounds_text(wish: &Wish, rounds: &Rounds) -> String {
         ),
     };
     text += &match (end, rounds.all.last().map(|last| &last.checked)) {
-        (End::Reached, _) => " It has the wish within the tolerance.\n".to_string(),
-        (End::Spent, _) => " No further design was tried: more need a larger --correct.\n".into(),
-        (End::Same, _) => {
+        (StopReason::Reached, _) => " It has the wish within the tolerance.\n".to_string(),
+        (StopReason::Spent, _) => " No further design was tried: more need a larger --correct.\n".into(),
+        (StopReason::Same, _) => {
             " The search came back to a design that was checked: more corrections would change nothing.\n".into()
         }
-        (End::Unchecked, Some(Err(why))) if rounds.all.len() > 1 => {
+        (StopReason::Unchecked, Some(Err(why))) if rounds.all.len() > 1 => {
             format!(
                 " Design {} has no finite element run ({why}), so the model is not corrected further.\n",
                 rounds.all.len()
             )
         }
-        (End::Unchecked, _) => " Without a finite element run nothing corrects the model.\n".into(),
+        (StopReason::Unchecked, _) => " Without a finite element run nothing corrects the model.\n".into(),
     };
     text
 }
@@ -277,7 +278,7 @@ struct DesignAnswer<'a> {
     designs: Option<Vec<CheckedDesign<'a>>>,
     /// With `--correct`, reason why no further round ran
     #[serde(skip_serializing_if = "Option::is_none")]
-    ended: Option<Option<End>>,
+    ended: Option<Option<StopReason>>,
 }
 
 #[derive(Serialize)]

@@ -149,7 +149,7 @@ struct RigidAnswer<'a> {
 }
 
 fn chain_text(scenario: &Scenario, chain: &Linear) -> String {
-    let mut joints = Table::of(chain.joints.iter().enumerate())
+    let mut joints = TextTable::of(chain.joints.iter().enumerate())
         .right("joint", |(i, _)| (i + 1).to_string())
         .number("start [mm]", 1, |(_, joint)| joint.start_m * 1e3)
         .number("length [mm]", 1, |(_, joint)| joint.length_m * 1e3)

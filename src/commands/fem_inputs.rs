@@ -2,7 +2,7 @@
 
 use super::inputs::quantity;
 use crate::prelude::*;
-use fem::session::{Settings, Source, rounded};
+use fem::session::{RunSettings, Source, rounded};
 use ibr::fe_source;
 
 const PUBLISHED: [&str; 4] = ["spam", "cpam", "epam", "fpam"];
@@ -27,10 +27,10 @@ pub(super) fn robots(specs: &[String]) -> Result<Robots> {
 }
 
 /// How runs are made that are kept in a folder by their hash.
-pub(super) fn kept(folder: &Path, context: &Context) -> Settings {
+pub(super) fn kept(folder: &Path, context: &Context) -> RunSettings {
     let further = Some(ibr::pages::run_plots as fem::session::Further);
     let (folder, threads) = (Some(folder.to_path_buf()), context.threads);
-    Settings { folder, threads, frames: false, further, maker: maker(), ..Settings::default() }
+    RunSettings { folder, threads, frames: false, further, maker: maker(), ..RunSettings::default() }
 }
 
 /// Reads `--pressure` as comma-separated pressures with units \[kPa\].

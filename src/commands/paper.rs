@@ -79,7 +79,7 @@ fn shown(against: &[HeightRow], rows: &[FactRow], runs: &[PaperRun]) -> String {
     }
     out += &markers.text();
     out += "\nEvery sentence of the paper with something to check\n";
-    out += &Table::of(rows)
+    out += &TextTable::of(rows)
         .words("the paper states", |r| &r.says)
         .words("in", |r| &r.place)
         .words("engine, or the paper elsewhere", |r| &r.found)
@@ -95,8 +95,8 @@ unknown; then y_FEA = y_EXP/(1 + e), the low branch, or y_EXP/(1 − e), the hig
 only; it is nowhere more than there. A height within a tenth of a branch holds.
 ";
 
-fn place(against: &[HeightRow]) -> Table<&HeightRow> {
-    Table::of(against)
+fn place(against: &[HeightRow]) -> TextTable<&HeightRow> {
+    TextTable::of(against)
         .words("robot", |a| &a.robot)
         .words("kPa", |a| format!("{:.0}", a.actuator_kpa))
         .words("mesh", |a| mesh_name(a.mesh_mm))

@@ -61,7 +61,7 @@ struct PatternAnswer<'a> {
 
 fn pieces(plan: &CuttingPlan) -> String {
     let size = |[a, b]: [f64; 2]| 1e3 * (b - a);
-    Table::of(&plan.pieces)
+    TextTable::of(&plan.pieces)
         .words("piece", |p| &p.name)
         .right("copies", |p| p.copies.to_string())
         .right("fabric", |p| p.fabric)

@@ -140,7 +140,7 @@ fn limits(typed: &str, scenario: &Scenario, wanted: &[Loads]) -> Result<Outcome>
         .collect();
     let mut text = format!("{} at body pressure {} kPa\n", scenario.name, scenario.p_body_pa / 1e3);
     let factor = |factor: Option<f64>| factor.map_or("none".into(), |factor| format!("{factor:.2}"));
-    text += &Table::of(&found)
+    text += &TextTable::of(&found)
         .right("P [kPa]", |(loads, ..)| pressure_words(loads))
         .right("collapse length [mm]", |(_, length, _)| length.map_or("none".into(), |m| format!("{:.0}", m * 1e3)))
         .right("over its length", |(_, m, _)| m.map_or("-".into(), |m| format!("{:.2}", m / scenario.length_m)))

@@ -40,7 +40,7 @@ fn text(one: &OneNumber) -> String {
         one.p_act_kpa[top],
         one.measured_mm
     );
-    let mut met = Table::of(&one.met_by)
+    let mut met = TextTable::of(&one.met_by)
         .words("effect", |e| &e.effect)
         .words("value", |e| format!("{} = {}", e.key, with_unit(&three(e.value), &e.unit)))
         .number("times typical", 2, |e| e.times_typical);

@@ -3,7 +3,7 @@
 use crate::cli::ShardArgs;
 use crate::prelude::*;
 use fem::FemError;
-use fem::session::{Job, Settings, Shard, is_finished, problems, simulate_all};
+use fem::session::{RunJob, RunSettings, Shard, is_finished, problems, simulate_all};
 use sweep::schedule;
 
 pub(super) fn shard(args: &ShardArgs) -> Result<Shard> {
@@ -112,8 +112,8 @@ pub(super) fn in_shards(
 
 pub(super) fn shared(
     args: &ShardArgs,
-    jobs: &[Job],
-    settings: &Settings,
+    jobs: &[RunJob],
+    settings: &RunSettings,
     context: &mut Context,
 ) -> Result<Option<Outcome>> {
     if !args.asked() {
@@ -123,7 +123,7 @@ pub(super) fn shared(
     let message = "--force would make the runs of all shards again in every one";
     refuse_if(settings.force, message, help)?;
     let root = settings.folder.clone().unwrap_or_default();
-    let all: Vec<(&Job, PathBuf)> = problems(jobs, &root)?;
+    let all: Vec<(&RunJob, PathBuf)> = problems(jobs, &root)?;
     let work = Work {
         folder: &root,
         parts: "runs",
@@ -132,7 +132,7 @@ pub(super) fn shared(
         may_fail: true,
     };
     in_shards(args, &work, context, |shard, context| {
-        let own: Vec<Job> =
+        let own: Vec<RunJob> =
             shard.own(&all).filter(|(_, folder)| !is_finished(folder)).map(|(job, _)| (*job).clone()).collect();
         let made = context.fem(|progress| simulate_all(&own, settings, progress))?;
         let stopped: Vec<String> =

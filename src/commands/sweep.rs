@@ -1,7 +1,7 @@
 use super::shards::{Work, by_scheduler, shard};
 use crate::cli::SweepArgs;
 use crate::prelude::*;
-use crate::tables::Table as Rows;
+use crate::tables::TextTable as Rows;
 use ::sweep::influence::{influences, pairs};
 use data::Table;
 use data::table::Column;

@@ -20,7 +20,7 @@ pub(super) fn run(args: &TradeoffArgs, context: &mut Context) -> Result<Outcome>
         (processor time); error of the published displacement: outermost marker, finite elements mean of seeds\n",
         machine()
     );
-    text += &Table::of(&timings)
+    text += &TextTable::of(&timings)
         .words("engine", |t| &t.engine)
         .words("actuator", |t| &t.actuator)
         .words("model", |t| &t.model)
@@ -38,9 +38,9 @@ pub(super) fn run(args: &TradeoffArgs, context: &mut Context) -> Result<Outcome>
 }
 
 /// The published displacements, and every model with one more effect.
-fn published(ladders: &[PublishedLadder]) -> Table<(&PublishedActuator, &Rung)> {
+fn published(ladders: &[PublishedLadder]) -> TextTable<(&PublishedActuator, &Rung)> {
     let rungs = ladders.iter().flat_map(|ladder| ladder.rungs.iter().map(move |rung| (&ladder.published, rung)));
-    Table::of(rungs)
+    TextTable::of(rungs)
         .words("actuator", |(p, _)| &p.printed_name)
         .words("model", |(_, rung)| &rung.label)
         .words("how known", |(_, rung)| rung.known.word())

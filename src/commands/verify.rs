@@ -21,7 +21,7 @@ pub(super) fn run(args: &VerifyArgs, context: &mut Context) -> Result<Outcome> {
 pub(super) fn show(answer: Findings) -> Outcome {
     let part = |part: Printed| match part {
         Printed::Text(text) => text,
-        Printed::Table { head, left, rows } => Table::finished(head, left, rows).text(),
+        Printed::Table { head, left, rows } => TextTable::finished(head, left, rows).text(),
     };
     let text = answer.parts.into_iter().map(part).collect();
     Outcome { code: if answer.missed { MISSED } else { 0 }, ..Outcome::new(text, answer.json) }

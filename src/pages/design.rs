@@ -19,18 +19,20 @@ pub(crate) fn design_files(wish: &Wish, found: &Design, elements_m: Option<&[[f6
         Mark::Line(vec![[0.0, -1.15 * radius], [0.0, 1.15 * radius]], Ink::Muted),
         Mark::Line(line, predicted),
     ];
-    let mut keys =
-        vec![Key::new(KeyLook::Line, predicted, "model, predicted"), Key::new(KeyLook::Dashed, Ink::Muted, "at rest")];
+    let mut keys = vec![
+        LegendEntry::new(KeyLook::Line, predicted, "model, predicted"),
+        LegendEntry::new(KeyLook::Dashed, Ink::Muted, "at rest"),
+    ];
     if let Some(places) = elements_m {
         let stations = mm(places);
         marks.extend(stations.iter().map(|at| point(*at, other, Symbol::Triangle, false)));
-        keys.push(Key::new(KeyLook::Symbol(Symbol::Triangle, false), other, "finite elements, predicted"));
+        keys.push(LegendEntry::new(KeyLook::Symbol(Symbol::Triangle, false), other, "finite elements, predicted"));
     }
     let places: Vec<[f64; 2]> =
         wish.wanted.tip_m.into_iter().chain(wish.wanted.places.iter().map(|p| p.at_m)).collect();
     if !places.is_empty() {
         marks.extend(mm(&places).into_iter().map(|at| point(at, wished, Symbol::Diamond, true)));
-        keys.push(Key::new(KeyLook::Symbol(Symbol::Diamond, true), wished, "wished for"));
+        keys.push(LegendEntry::new(KeyLook::Symbol(Symbol::Diamond, true), wished, "wished for"));
     }
     marks.push(Mark::Tip(end, format!("{} kPa", pressure_words(&found.loads)), predicted));
     let mut chart = Chart::new(&found.file.scenario.name, "x along the robot at rest [mm]", "y sideways [mm]");

@@ -7,7 +7,7 @@ use super::{Maker, Result, Values, figures, moment_figure, residual_figure};
 use crate::prelude::*;
 use crate::shown::diagnosis_tables as tables;
 use ::compare::diagnosis::words::listed;
-use ::compare::diagnosis::{Answer, Diagnosis, Standing, Verdict};
+use ::compare::diagnosis::{Diagnosis, EffectAnswer, Standing, Verdict};
 use ::compare::extension::error_steps;
 use ::compare::progress::Progress;
 use ::compare::residuals::{Deviation, ResidualCell, ResidualMap};
@@ -181,14 +181,14 @@ fn values(found: &Diagnosed) -> Values {
 }
 
 /// What the verdict states, or the attempt; nothing where nothing is missing.
-fn told(d: &Diagnosis) -> Vec<Answer<'_>> {
+fn told(d: &Diagnosis) -> Vec<EffectAnswer<'_>> {
     let none = d.is_quiet() || d.pressure_slip.is_some();
     let answers = if none { Vec::new() } else { d.answers() };
     answers.into_iter().filter(|a| matches!(a.standing, Standing::Stated | Standing::Attempt)).collect()
 }
 
 /// An answer with the values of its fit and what it brings.
-fn answer(d: &Diagnosis, answer: &Answer) -> Values {
+fn answer(d: &Diagnosis, answer: &EffectAnswer) -> Values {
     let values = answer.effects.iter().map(|(r, values)| match answer.effects.len() {
         1 => listed(values),
         _ => format!("{}, {}", super::effect(&r.effect), listed(values)),

@@ -1,7 +1,7 @@
 use super::Result;
 use super::figures::measured;
 use crate::prelude::*;
-use compare::diagnosis::{Answer, Diagnosis, Group, Standing};
+use compare::diagnosis::{Diagnosis, EffectAnswer, Group, Standing};
 use compare::extension::ErrorStep;
 use compare::study::engines::{Energies, TERMS};
 use compare::study::predict::predict_dataset;
@@ -82,7 +82,7 @@ pub(super) fn ranking_rows(d: &Diagnosis) -> Option<Vec<(String, Rank, f64)>> {
     let answers = d.answers();
     let possible = answers.iter().filter(|a| a.standing != Standing::Rejected && a.gain.is_finite());
     let best = possible.map(|a| a.gain).fold(0.0, f64::max);
-    let rank = |a: &Answer| match a.standing {
+    let rank = |a: &EffectAnswer| match a.standing {
         Standing::Stated => Rank::Alike,
         Standing::Attempt => Rank::Attempt,
         Standing::Other if d.indistinguishable.is_empty() => Rank::Other,
@@ -104,23 +104,23 @@ pub(super) fn ranking(d: &Diagnosis) -> Result<Option<Drawn>> {
     };
     let marks = rows.iter().enumerate().map(bar).collect();
     let present = RANKS.iter().filter(|(rank, ..)| rows.iter().any(|row| row.1 == *rank));
-    let keys = present.map(|(_, words, ink)| Key::new(KeyLook::Patch, *ink, words)).collect();
+    let keys = present.map(|(_, words, ink)| LegendEntry::new(KeyLook::Patch, *ink, words)).collect();
     let names = rows.iter().map(|row| ChartRow::beside(&super::effect(&row.0))).collect();
     let label = "gain: fall of the squares, weighted by the noise; % of the best";
     Ok(Some(plots::rows(title, label, names, marks, keys).draw("ranking")?))
 }
 
 /// Answers worth a curve: the stated set or the attempt, then the nearest others.
-pub(super) fn shown(d: &Diagnosis) -> Vec<Answer<'_>> {
-    let mut kept: Vec<Answer> = d.answers().into_iter().filter(Answer::helps).collect();
+pub(super) fn shown(d: &Diagnosis) -> Vec<EffectAnswer<'_>> {
+    let mut kept: Vec<EffectAnswer> = d.answers().into_iter().filter(EffectAnswer::helps).collect();
     let first = kept.iter().filter(|a| a.standing != Standing::Other).count();
     kept.truncate((first + OTHER_CURVES).min(MOST_CURVES));
     kept
 }
 
 /// `12 of the 14 that fit equally well`, where not all of them are drawn.
-pub(super) fn left_out(d: &Diagnosis, drawn: &[Answer]) -> Option<String> {
-    let stated = |answers: &[Answer]| answers.iter().filter(|a| a.standing == Standing::Stated).count();
+pub(super) fn left_out(d: &Diagnosis, drawn: &[EffectAnswer]) -> Option<String> {
+    let stated = |answers: &[EffectAnswer]| answers.iter().filter(|a| a.standing == Standing::Stated).count();
     let (shown, all) = (stated(drawn), d.indistinguishable.len());
     (shown < all).then(|| format!("Drawn are the first {shown} of the {all} that fit equally well."))
 }
@@ -184,7 +184,7 @@ pub(super) fn waited_s(dataset: &Dataset) -> f64 {
     if count > 0.0 { sum / count } else { 0.0 }
 }
 
-fn attempted(d: &Diagnosis, answer: &Answer) -> String {
+fn attempted(d: &Diagnosis, answer: &EffectAnswer) -> String {
     if answer.standing == Standing::Attempt { format!(" ({})", d.attempt_words()) } else { String::new() }
 }
 

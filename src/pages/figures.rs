@@ -284,7 +284,7 @@ pub(crate) fn tradeoff(timings: &[Timing]) -> Result<Drawn> {
     };
     let mut marks = vec![front(shown.iter().map(|t| at(t)).collect())];
     marks.extend(shown.iter().enumerate().map(point));
-    let key = |(i, name): (usize, &&str)| Key::new(KeyLook::Symbol(Symbol::of(i), false), Ink::Series(i), name);
+    let key = |(i, name): (usize, &&str)| LegendEntry::new(KeyLook::Symbol(Symbol::of(i), false), Ink::Series(i), name);
     let (x, y) = ("run time of one prediction", "error of the published displacement [%]");
     let keys = groups.iter().enumerate().map(key).collect();
     let mut chart = Chart::new("Run time against error", x, y);

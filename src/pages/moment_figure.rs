@@ -38,7 +38,7 @@ pub(super) fn missing_moment(found: &MissingMoment, beside: &[FeMoment]) -> Resu
     let (x, y) = ("bend over the whole body [°]", "missing moment [N m]; below 0 something holds it back");
     let mut keys = keys(found, &levels, &bodies);
     if !beside.is_empty() {
-        keys.push(Key::new(KeyLook::SymbolLine(FINITE_ELEMENTS, true), Ink::Muted, "finite elements"));
+        keys.push(LegendEntry::new(KeyLook::SymbolLine(FINITE_ELEMENTS, true), Ink::Muted, "finite elements"));
     }
     let mut chart = Chart::new("What the model misses", x, y);
     (chart.marks, chart.keys) = (marks, keys);
@@ -126,21 +126,21 @@ fn tips(curves: &[MomentCurve], told: &[&str]) -> Vec<Mark> {
     marks
 }
 
-fn keys(found: &MissingMoment, levels: &[f64], bodies: &[f64]) -> Vec<Key> {
+fn keys(found: &MissingMoment, levels: &[f64], bodies: &[f64]) -> Vec<LegendEntry> {
     let looks = |open: bool| KeyLook::Symbol(Symbol::Circle, open);
-    let level = |(i, p): (usize, &f64)| Key::new(looks(false), Ink::Series(i), &format!("{} kPa", short(*p)));
-    let mut keys: Vec<Key> = levels.iter().enumerate().map(level).collect();
+    let level = |(i, p): (usize, &f64)| LegendEntry::new(looks(false), Ink::Series(i), &format!("{} kPa", short(*p)));
+    let mut keys: Vec<LegendEntry> = levels.iter().enumerate().map(level).collect();
     if found.of_holds().any(|p| p.phase == "unload") {
-        keys.push(Key::new(looks(true), Ink::Ink, "on the way down"));
+        keys.push(LegendEntry::new(looks(true), Ink::Ink, "on the way down"));
     }
     if bodies.len() > 1 {
         let body = |(i, p): (usize, &f64)| {
-            Key::new(KeyLook::Symbol(Symbol::of(i), false), Ink::Muted, &format!("body {} kPa", short(*p)))
+            LegendEntry::new(KeyLook::Symbol(Symbol::of(i), false), Ink::Muted, &format!("body {} kPa", short(*p)))
         };
         keys.extend(bodies.iter().enumerate().map(body));
     }
     if found.curves.iter().any(|c| !c.is_told) {
-        keys.push(Key::new(KeyLook::Dashed, Ink::Muted, "fits worse"));
+        keys.push(LegendEntry::new(KeyLook::Dashed, Ink::Muted, "fits worse"));
     }
     keys
 }

@@ -18,9 +18,9 @@ pub(crate) fn tracks_plot(track: &RunTrack) -> Result<Drawn> {
     let mut marks: Vec<Mark> = track.holds.iter().map(band).collect();
     marks.extend(track.lines.iter().enumerate().map(line));
     let few = track.lines.len() <= MOST_KEYS;
-    let mut keys = vec![Key::new(KeyLook::Patch, Ink::Soft, &holds(track))];
+    let mut keys = vec![LegendEntry::new(KeyLook::Patch, Ink::Soft, &holds(track))];
     let names = track.lines.iter().enumerate().filter(|_| few);
-    keys.extend(names.map(|(k, (name, _))| Key::new(KeyLook::Line, Ink::Series(k), name)));
+    keys.extend(names.map(|(k, (name, _))| LegendEntry::new(KeyLook::Line, Ink::Series(k), name)));
     let title = format!("Run {}: markers towards the actuator, and the holds found", track.run);
     let mut chart = Chart::new(title, "time [s]", "y [mm]");
     (chart.marks, chart.keys) = (marks, keys);
@@ -38,8 +38,8 @@ pub(crate) fn clock_plot(tracks: &ClockTracks) -> Result<Drawn> {
     marks.extend(changes(0).chain(changes(1)));
     let [moved, pressed] = [0, 1].map(|which| tracks.changes_s[which].len());
     let keys = vec![
-        Key::new(KeyLook::Line, Ink::Series(0), &format!("movement, {moved} changes (above)")),
-        Key::new(KeyLook::Line, Ink::Series(1), &format!("pressure, {pressed} changes (below)")),
+        LegendEntry::new(KeyLook::Line, Ink::Series(0), &format!("movement, {moved} changes (above)")),
+        LegendEntry::new(KeyLook::Line, Ink::Series(1), &format!("pressure, {pressed} changes (below)")),
     ];
     let title = format!("Movement and pressure, the log's clock {:.2} s ahead of the camera's", tracks.offset_s);
     Ok(Chart { marks, keys, ..Chart::new(title, "time of the log [s]", "share of the range") }.draw("clock")?)

@@ -149,7 +149,7 @@ fn holds(variant: &Variant) -> String {
     let percent = |share: Option<f64>| share.map(|a| 100.0 * a);
     let holds = &variant.evaluation.metrics.holds;
     let has_z = holds.iter().any(|h| h.tip_error_z_mm.is_some());
-    Table::of(holds)
+    TextTable::of(holds)
         .words("hold", |h| hold_name(&h.label))
         .when(!has_z, |table| {
             table

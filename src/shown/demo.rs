@@ -16,7 +16,7 @@ const BREAKDOWN: f64 = 0.15;
 
 /// A panel of the demonstration, for the terminal, the report and the page in a browser.
 #[derive(Serialize)]
-pub struct Panel {
+pub struct DemoPanel {
     title: &'static str,
     lead: String,
     /// Name of its picture, and the caption.
@@ -28,13 +28,13 @@ pub struct Panel {
     table: Option<PageTable>,
 }
 
-impl Panel {
-    fn new(title: &'static str, lead: String, [picture, caption]: [&'static str; 2]) -> Panel {
-        Panel { title, lead, picture, caption, text: String::new(), table: None }
+impl DemoPanel {
+    fn new(title: &'static str, lead: String, [picture, caption]: [&'static str; 2]) -> DemoPanel {
+        DemoPanel { title, lead, picture, caption, text: String::new(), table: None }
     }
 
-    fn with<R>(self, caption: &str, table: impl Fn() -> Table<R>) -> Panel {
-        Panel { text: table().text(), table: Some(table().page(caption)), ..self }
+    fn with<R>(self, caption: &str, table: impl Fn() -> TextTable<R>) -> DemoPanel {
+        DemoPanel { text: table().text(), table: Some(table().page(caption)), ..self }
     }
 }
 
@@ -52,7 +52,7 @@ fn robot(demo: &Demo) -> String {
     )
 }
 
-fn heights(found: &Comparison) -> Table<(&HoldLabel, &ResidualCell, f64)> {
+fn heights(found: &Comparison) -> TextTable<(&HoldLabel, &ResidualCell, f64)> {
     let (map, data) = (&found.variants[0].evaluation.residual_map, &found.dataset);
     let mean = data.mean_over_runs();
     let measured = |hold: usize| {
@@ -61,7 +61,7 @@ fn heights(found: &Comparison) -> Table<(&HoldLabel, &ResidualCell, f64)> {
     };
     let rows = map.holds.iter().enumerate().map(|(h, label)| (label, &map.cells[map.tip][h], measured(h)));
     let is_shown = |label: &HoldLabel| SHOWN_KPA.contains(&label.p_act_kpa);
-    Table::of(rows.filter(|(label, ..)| is_shown(label)).collect::<Vec<_>>())
+    TextTable::of(rows.filter(|(label, ..)| is_shown(label)).collect::<Vec<_>>())
         .number("actuator kPa", 0, |(label, ..)| label.p_act_kpa)
         .number("model mm", 1, |(_, cell, measured)| measured + cell.y.mm)
         .number("markers mm", 1, |(.., measured)| *measured)
@@ -69,19 +69,19 @@ fn heights(found: &Comparison) -> Table<(&HoldLabel, &ResidualCell, f64)> {
         .number("over its noise", 0, |(_, cell, _)| cell.y.in_noise.map(f64::abs))
 }
 
-fn candidates(demo: &Demo) -> Table<&Mechanism> {
-    Table::of(demo.candidates.iter().take(CANDIDATES))
+fn candidates(demo: &Demo) -> TextTable<&Mechanism> {
+    TextTable::of(demo.candidates.iter().take(CANDIDATES))
         .words("effect", |m| &m.effect)
         .number("error left, mm", 1, |m| m.error_mm)
         .words("what it is", |m| &m.sentence)
 }
 
 /// The model with one more mechanism in every row; last the model with a fitted stiffness in their place.
-fn steps(demo: &Demo) -> Table<(String, &Mechanism)> {
+fn steps(demo: &Demo) -> TextTable<(String, &Mechanism)> {
     let added = |m: &Mechanism| if m.effect.is_empty() { "textbook".into() } else { format!("+ {}", m.effect) };
     let rows = demo.steps.iter().map(|m| (added(m), m));
     let stiffness = ("textbook, B fitted".to_string(), &demo.stiffness);
-    Table::of(rows.chain([stiffness]).collect::<Vec<_>>())
+    TextTable::of(rows.chain([stiffness]).collect::<Vec<_>>())
         .words("model", |(model, _)| model.clone())
         .number("error mm", 1, |(_, m)| m.error_mm)
         .number("left-out data mm", 1, |(_, m)| m.left_out_mm)
@@ -138,8 +138,8 @@ pub(crate) fn breaking(demo: &Demo) -> Vec<Breaking<'_>> {
     robots
 }
 
-fn breaking_table(demo: &Demo) -> Table<Breaking<'_>> {
-    Table::of(breaking(demo))
+fn breaking_table(demo: &Demo) -> TextTable<Breaking<'_>> {
+    TextTable::of(breaking(demo))
         .words("robot", |b| b.robot)
         .right("10 kPa", |b| b.pair(10.0))
         .right("20 kPa", |b| b.pair(20.0))
@@ -149,20 +149,20 @@ fn breaking_table(demo: &Demo) -> Table<Breaking<'_>> {
 }
 
 /// Panels of the demonstration: title, lead and table of each.
-pub fn panels(demo: &Demo) -> [Panel; 5] {
+pub fn panels(demo: &Demo) -> [DemoPanel; 5] {
     let [first, last] = [demo.steps.first(), demo.steps.last()].map(|step| step.map_or(f64::NAN, |s| s.error_mm));
     let fails = &demo.compared.variants[0].evaluation.where_it_fails;
     let fails = fails.first().map_or("", |Statement { sentence, .. }| sentence);
     let lacks = format!("{fails} It lacks {} mechanisms of how this robot is made. {ALONE}", demo.candidates.len());
     [
-        Panel::new("This is a vine robot", robot(demo), ROBOT_PICTURE),
-        Panel::new("A model predicts, the markers disagree", CAMERA.into(), RESIDUALS)
+        DemoPanel::new("This is a vine robot", robot(demo), ROBOT_PICTURE),
+        DemoPanel::new("A model predicts, the markers disagree", CAMERA.into(), RESIDUALS)
             .with("Outermost marker, mean over the runs", || heights(&demo.compared)),
-        Panel::new("Which effects are missing?", lacks, MISSING_MOMENT)
+        DemoPanel::new("Which effects are missing?", lacks, MISSING_MOMENT)
             .with("Mechanisms, each added alone", || candidates(demo)),
-        Panel::new("Add them, and the error falls", format!("From {first:.1} to {last:.1} mm. {ADDED}"), WATERFALL)
+        DemoPanel::new("Add them, and the error falls", format!("From {first:.1} to {last:.1} mm. {ADDED}"), WATERFALL)
             .with("Root mean square error over markers and holds", || steps(demo)),
-        Panel::new("Where the analytic model breaks", BREAKING.into(), BREAKING_PICTURE)
+        DemoPanel::new("Where the analytic model breaks", BREAKING.into(), BREAKING_PICTURE)
             .with("Outermost marker, sideways, mm", || breaking_table(demo)),
     ]
 }
@@ -173,8 +173,9 @@ pub(crate) fn text(demo: &Demo) -> String {
          --keep-bending --out FOLDER`.\n",
         ROBOT[0], ROBOT[1]
     );
-    let panel =
-        |(k, panel): (usize, Panel)| format!("{}. {}\n{}{}", k + 1, panel.title, wrapped(&panel.lead, 0), panel.text);
+    let panel = |(k, panel): (usize, DemoPanel)| {
+        format!("{}. {}\n{}{}", k + 1, panel.title, wrapped(&panel.lead, 0), panel.text)
+    };
     panels(demo).into_iter().enumerate().map(panel).collect::<String>() + &wrapped(&rest, 0)
 }
 

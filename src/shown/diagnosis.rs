@@ -106,7 +106,7 @@ fn closest(d: &Diagnosis) -> String {
     if rows.is_empty() {
         return String::new();
     }
-    let rows = Table::of(rows)
+    let rows = TextTable::of(rows)
         .words("", |(_, alike, ..)| if *alike { "=" } else { "" })
         .words("with", |(name, ..)| name.clone())
         .words("value, 95 %", |(_, _, values, ..)| listed(values))

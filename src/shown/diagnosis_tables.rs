@@ -12,7 +12,7 @@ pub(crate) fn tables(d: &Diagnosis, witness: Option<&Witness>) -> String {
     let base = format!("(base: {:.2} mm beyond noise):", d.base.systematic_mm);
     let ranking: String = ranking(d).into_iter().map(|(title, rows)| rows.under(&format!("{title} {base}"))).collect();
     let finite_elements = witness.map_or(String::new(), |w| {
-        let tables = witness_heights(w).text() + &witness_ledgers(w).map_or(String::new(), Table::text);
+        let tables = witness_heights(w).text() + &witness_ledgers(w).map_or(String::new(), TextTable::text);
         format!("\nThe same robot in finite elements:\n{}{tables}", lines("  - ", &w.sentences))
     });
     let unseen = format!("\n{UNSEEN}:\n{}{}", unseen(d).text(), lines("note: ", &d.limits));
@@ -30,9 +30,9 @@ pub(crate) fn is_told(d: &Diagnosis, r: &Ranked) -> bool {
     d.speaks_of(&r.effect) || r.in_set && d.pairs.is_empty()
 }
 
-pub(crate) fn ranking(d: &Diagnosis) -> [(&'static str, Table<&Ranked>); 2] {
+pub(crate) fn ranking(d: &Diagnosis) -> [(&'static str, TextTable<&Ranked>); 2] {
     [("Supply and measurement, to be ruled out first", true), ("Physics and loads", false)].map(|(title, nuisance)| {
-        let rows = Table::of(d.ranked.iter().filter(|r| r.group.is_nuisance() == nuisance))
+        let rows = TextTable::of(d.ranked.iter().filter(|r| r.group.is_nuisance() == nuisance))
             .words("", |r| mark(d, r))
             .words("effect", |r| &r.effect)
             .words("value, 95 %", |r| listed(&r.parameters))
@@ -67,8 +67,8 @@ pub(crate) fn p_text(p: f64) -> String {
     }
 }
 
-pub(crate) fn pairs(d: &Diagnosis) -> Table<&Combination> {
-    Table::of(&d.pairs)
+pub(crate) fn pairs(d: &Diagnosis) -> TextTable<&Combination> {
+    TextTable::of(&d.pairs)
         .words("", |p| if p.in_set { "=" } else { "" })
         .words("pair", |p| p.effects.join(" + "))
         .words("values, 95 %", |p| listed(&p.parameters))
@@ -100,8 +100,8 @@ fn details(d: &Diagnosis) -> String {
     out + &format!("\nWhere the final model still fails:\n{fails}")
 }
 
-pub(crate) fn witness_heights(w: &Witness) -> Table<&Height> {
-    Table::of(&w.heights)
+pub(crate) fn witness_heights(w: &Witness) -> TextTable<&Height> {
+    TextTable::of(&w.heights)
         .words("actuator kPa", |h| short(h.actuator_kpa))
         .number("measured", 1, |h| h.measured_mm)
         .number("calibrated B", 1, |h| h.base_mm)
@@ -110,29 +110,29 @@ pub(crate) fn witness_heights(w: &Witness) -> Table<&Height> {
 }
 
 /// Ledgers of the models, then of the finite elements; none without the latter.
-pub(crate) fn witness_ledgers(w: &Witness) -> Option<Table<(&str, &Energies, Option<f64>)>> {
+pub(crate) fn witness_ledgers(w: &Witness) -> Option<TextTable<(&str, &Energies, Option<f64>)>> {
     let fe = w.fe_mj.as_ref().map(|fe| ("finite elements", fe, None))?;
     let models = w.models.iter().map(|m| (m.name.as_str(), &m.energies_mj, Some(m.apart_mj)));
-    let mut ledgers = Table::of(models.chain([fe])).words("energies mJ", |(name, ..)| *name);
+    let mut ledgers = TextTable::of(models.chain([fe])).words("energies mJ", |(name, ..)| *name);
     for (k, term) in TERMS.into_iter().enumerate() {
         ledgers = ledgers.number(term, 0, |(_, energies_mj, _)| energies_mj[k]);
     }
     Some(ledgers.number("apart", 0, |(.., apart_mj)| *apart_mj))
 }
 
-pub(crate) fn unseen(d: &Diagnosis) -> Table<&Undetectable> {
+pub(crate) fn unseen(d: &Diagnosis) -> TextTable<&Undetectable> {
     let unknown = if d.noise.camera_mm.is_some() { "not within its bounds" } else { "not known" };
-    Table::of(&d.undetectable)
+    TextTable::of(&d.undetectable)
         .words("effect", |u| &u.effect)
         .right("size", |u| u.smallest_detectable.map_or(unknown.into(), |s| with_unit(&three(s), &u.unit)))
         .number("times typical", 2, |u| u.times_typical)
 }
 
 /// Experiments that were thought through, with a title; none without them.
-pub(crate) fn experiments(d: &Diagnosis) -> Option<(String, Table<Tried<'_>>)> {
+pub(crate) fn experiments(d: &Diagnosis) -> Option<(String, TextTable<Tried<'_>>)> {
     let next = d.next_experiment.as_ref().filter(|next| !next.tried.is_empty())?;
     let tried = next.tried.iter().map(|e| (e.name.as_str(), e.shown_protocol(), e.needed, &e.separations[..]));
-    let mut rows = Table::of(std::iter::once(("data at hand", "–", next.needed_now, &next.now[..])).chain(tried))
+    let mut rows = TextTable::of(std::iter::once(("data at hand", "–", next.needed_now, &next.now[..])).chain(tried))
         .words("experiment", |(name, ..)| *name)
         .words("protocol [kPa]", |(_, protocol, ..)| *protocol)
         .number("suffices", 0, |(_, _, needed, _)| *needed);

@@ -12,8 +12,8 @@ pub(crate) const LEDGERS: &str = "Ledgers at the highest pressure [mJ]: gas −P
 pub(crate) const VOLUMES: &str = "Volumes [cm³], mean over seeds: what the bodies of the finite elements lose, and what the \
     reduced model knows of it";
 
-pub(crate) fn line_table(lines: &[EngineLine]) -> Table<&EngineLine> {
-    Table::of(lines)
+pub(crate) fn line_table(lines: &[EngineLine]) -> TextTable<&EngineLine> {
+    TextTable::of(lines)
         .words("robot", |line| &line.robot)
         .number("kPa", 0, |line| line.actuator_kpa)
         .right("source", |line| &line.source)
@@ -25,7 +25,7 @@ pub(crate) fn line_table(lines: &[EngineLine]) -> Table<&EngineLine> {
 }
 
 /// Every robot in a row for every way that it may be made: the displacement at the pressure of the measurement; none without one.
-pub(crate) fn summary(robots: &[EngineRobot]) -> Result<Table<Vec<String>>, CompareError> {
+pub(crate) fn summary(robots: &[EngineRobot]) -> Result<TextTable<Vec<String>>, CompareError> {
     let rows = robots.iter().map(summary_rows).collect::<Result<Vec<_>, _>>()?;
     let heads = [
         "robot",
@@ -38,7 +38,7 @@ pub(crate) fn summary(robots: &[EngineRobot]) -> Result<Table<Vec<String>>, Comp
         "measured",
         "as recommended mm, assumed",
     ];
-    Ok(Table::finished(&heads, 1, rows.concat()))
+    Ok(TextTable::finished(&heads, 1, rows.concat()))
 }
 
 fn summary_rows(robot: &EngineRobot) -> Result<Vec<Vec<String>>, CompareError> {
@@ -82,13 +82,13 @@ pub(crate) fn over_seeds(value: Option<MeanOverSeeds>, decimals: usize) -> Strin
 pub(crate) type BothWays<'a> = (&'a EngineRobot, f64, [MeanOverSeeds; 2]);
 
 /// Tips of the finite elements at every pressure of every robot on both ways; no rows for runs that did not come down.
-pub(crate) fn branches(robots: &[EngineRobot]) -> Table<BothWays<'_>> {
+pub(crate) fn branches(robots: &[EngineRobot]) -> TextTable<BothWays<'_>> {
     let states = |robot: &'_ EngineRobot| robot.ensemble.runs.first().map_or(&[][..], |run| &run.states).to_vec();
     let rows = robots.iter().flat_map(|robot| {
         let both = move |kpa: f64| Some((robot, kpa, [robot.ensemble.at(kpa)?[1], robot.ensemble.back_at(kpa)?]));
         states(robot).into_iter().filter_map(move |state| both(state.actuator_kpa))
     });
-    Table::of(rows)
+    TextTable::of(rows)
         .words("robot", |(robot, ..)| robot.scenario.actuator.kind.name)
         .number("kPa", 0, |(_, kpa, _)| *kpa)
         .right("tip up mm", |(.., [up, _])| over_seeds(Some(*up), 1))
@@ -98,7 +98,7 @@ pub(crate) fn branches(robots: &[EngineRobot]) -> Table<BothWays<'_>> {
 }
 
 /// Energies of both engines at the highest pressure of every robot.
-pub(crate) fn ledgers(robots: &[EngineRobot]) -> Table<Vec<String>> {
+pub(crate) fn ledgers(robots: &[EngineRobot]) -> TextTable<Vec<String>> {
     let mut rows = Vec::new();
     for (robot, pair) in robots.iter().filter_map(|robot| Some((robot, robot.pairs.last()?))) {
         for (engine, energies, lost) in [
@@ -117,13 +117,13 @@ pub(crate) fn ledgers(robots: &[EngineRobot]) -> Table<Vec<String>> {
             vec![String::new(), format!("carried by: {} ({without:+.0} % without)", carrier.term)]
         }));
     }
-    Table::finished(&[&["robot", "engine"], &TERMS[..], &["lost"]].concat(), 2, rows)
+    TextTable::finished(&[&["robot", "engine"], &TERMS[..], &["lost"]].concat(), 2, rows)
 }
 
 /// Volumes of every robot at its own body pressure; quotients with their standard deviation over the seeds.
-pub(crate) fn volume_table(robots: &[EngineRobot]) -> Table<(&BodyVolumes, &MeanVolumes)> {
+pub(crate) fn volume_table(robots: &[EngineRobot]) -> TextTable<(&BodyVolumes, &MeanVolumes)> {
     let bodies = robots.iter().flat_map(|robot| &robot.bodies).filter(|body| body.own);
-    Table::of(bodies.flat_map(|body| body.states.iter().map(move |state| (body, state))))
+    TextTable::of(bodies.flat_map(|body| body.states.iter().map(move |state| (body, state))))
         .words("robot", |(body, _)| &body.actuator)
         .number("actuator kPa", 0, |(_, v)| v.actuator_kpa)
         .number("body lost", 1, |(_, v)| v.body_lost_cm3.0)

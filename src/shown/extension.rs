@@ -14,7 +14,7 @@ pub fn steps_text(steps: &[ErrorStep], noise_floor_mm: Option<f64>) -> String {
     let floor = noise_floor_mm.map_or("noise unknown with one run: root-mean-square errors".to_string(), |n| {
         format!("noise of the mean {n:.2} mm, already subtracted")
     });
-    let steps = Table::of(steps)
+    let steps = TextTable::of(steps)
         .words("model", |step| &step.model)
         .words("how known", |step| step.how_known)
         .number("training mm", 2, |step| step.training_mm)

@@ -1,7 +1,7 @@
 //! Bench tests compared with a model, in words and for JSON.
 
 use crate::prelude::*;
-use compare::bench::{Held, HeldRow};
+use compare::bench::{ComparedBench, HeldRow};
 
 /// `ibr.compare.bench`: `ibr compare TABLE`, a table of bench tests
 #[derive(Serialize)]
@@ -44,16 +44,16 @@ pub(crate) struct HeldTest<'a> {
 }
 
 impl<'a> HeldTable<'a> {
-    pub(crate) fn of(held: &'a Held) -> HeldTable<'a> {
+    pub(crate) fn of(held: &'a ComparedBench) -> HeldTable<'a> {
         let rows = held.rows.iter().map(|row| HeldTest { row, off: row.off(), verdict: row.verdict() });
-        let Held { title, quantity, known, notes, .. } = held;
+        let ComparedBench { title, quantity, known, notes, .. } = held;
         HeldTable { title, quantity, how_known: *known, rms_off: held.rms(), rows: rows.collect(), notes }
     }
 }
 
 /// A table, and how far the model is off where it was not fitted.
-pub(crate) fn text(held: &Held) -> String {
-    let table = Table::of(&held.rows)
+pub(crate) fn text(held: &ComparedBench) -> String {
+    let table = TextTable::of(&held.rows)
         .words(&held.quantity, |r| &r.at)
         .number("measured", 2, |r| r.measured)
         .number("model", 2, |r| r.model)
@@ -62,7 +62,7 @@ pub(crate) fn text(held: &Held) -> String {
     format!("{} ({})\n{}{}", held.title, held.known.word(), table.text(), closing(held))
 }
 
-pub(crate) fn closing(held: &Held) -> String {
+pub(crate) fn closing(held: &ComparedBench) -> String {
     let mut out = String::new();
     if let Some(rms) = held.rms() {
         let fitted = held.rows.iter().filter(|r| r.fitted).count();

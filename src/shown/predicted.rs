@@ -17,7 +17,7 @@ pub fn text(scenario: &Scenario, states: &[AtPressure]) -> String {
     let slope = |s: &AtPressure| s.slopes.iter().map(|slope| slope.y_per_pa).sum::<f64>();
     let mut out =
         format!("{} at body pressure {} kPa{}\n", scenario.name, scenario.p_body_pa / 1e3, wall_words(scenario));
-    out += &Table::of(states())
+    out += &TextTable::of(states())
         .right("P [kPa]", |s| pressure_words(&s.loads))
         .number("tip x [mm]", 2, |s| tip(s).x_m * 1e3)
         .number("tip y [mm]", 2, |s| tip(s).y_m * 1e3)
@@ -30,7 +30,7 @@ pub fn text(scenario: &Scenario, states: &[AtPressure]) -> String {
     }
     let axes = if is_spatial { "x, y, z" } else { "x, y" };
     let mut markers =
-        Table::of(scenario.markers_m.iter().enumerate()).number("marker at s [mm]", 1, |(_, s)| **s * 1e3);
+        TextTable::of(scenario.markers_m.iter().enumerate()).number("marker at s [mm]", 1, |(_, s)| **s * 1e3);
     for state in states() {
         markers = markers.right(format!("{axes} [mm] at {} kPa", pressure_words(&state.loads)), |(i, _)| {
             let [x, y] = state.prediction.markers[*i].map(|v| v * 1e3);

@@ -26,20 +26,20 @@ pub fn text(s: &Summary) -> String {
     }
     let moved = |p: &ProbeEnd, k: usize| p.displacement_mm[k];
     out += &below(
-        Table::of(&s.probes)
+        TextTable::of(&s.probes)
             .words("probe", |p| &p.set)
             .signed("dx mm", 3, |p| moved(p, 0))
             .signed("dy mm", 3, |p| moved(p, 1))
             .signed("dz mm", 3, |p| moved(p, 2)),
     );
     out += &below(
-        Table::of(&s.chambers).words("chamber", |c| &c.name).number("pressure kPa", 3, |c| c.pressure_kpa).number(
+        TextTable::of(&s.chambers).words("chamber", |c| &c.name).number("pressure kPa", 3, |c| c.pressure_kpa).number(
             "volume cm³",
             3,
             |c| c.volume_cm3,
         ),
     );
-    let mut forces = Table::of(&s.reactions).words("force of the support on", |r| &r.set);
+    let mut forces = TextTable::of(&s.reactions).words("force of the support on", |r| &r.set);
     for (k, head) in ["x N", "y N", "z N"].into_iter().enumerate() {
         forces = forces.right(head, |r| r.force_n[k].map_or("–".into(), signed));
     }
@@ -51,7 +51,7 @@ pub fn text(s: &Summary) -> String {
     let ledger = s.ledger.iter().map(|r| (r.name.as_str(), r.kind.as_str(), r.energy_j));
     let (first, last) = (("kinetic", "stored", s.kinetic_j), ("residual", "missing", s.residual_j));
     out += &below(
-        Table::of(std::iter::once(first).chain(ledger).chain([last]))
+        TextTable::of(std::iter::once(first).chain(ledger).chain([last]))
             .words("energy", |(name, ..)| *name)
             .words("", |(_, kind, _)| *kind)
             .number("J", 6, |(.., energy_j)| *energy_j),
@@ -60,7 +60,7 @@ pub fn text(s: &Summary) -> String {
 }
 
 /// A table after an empty line; nothing without rows.
-fn below<R>(table: Table<R>) -> String {
+fn below<R>(table: TextTable<R>) -> String {
     if table.is_empty() { String::new() } else { format!("\n{}", table.text()) }
 }
 
@@ -124,7 +124,7 @@ fn robot_text(robot: &RobotSummary) -> String {
     };
     let axes = if robot.is_spatial { &[("y", 1), ("z", 2)][..] } else { &[("", 1)] };
     let rows = readings.iter().flat_map(|r| axes.iter().map(move |(name, axis)| (r, *name, *axis)));
-    let mut moved = Table::of(rows)
+    let mut moved = TextTable::of(rows)
         .right("actuator kPa", |(r, ..)| pressures(r))
         .when(robot.is_spatial, |table| table.right("along", |(_, name, _)| *name));
     for (k, s) in last.stations_m.iter().enumerate() {
@@ -155,7 +155,7 @@ fn state(readings: &[Reading]) -> String {
         (false, None) => "not known".into(),
     };
     let strength = readings.iter().any(|r| r.seam_share.is_some());
-    Table::of(readings)
+    TextTable::of(readings)
         .right("actuator kPa", |r| pressures(r))
         .number("body cm³", 1, |r| r.body_m3 * 1e6)
         .number("actuator cm³", 1, |r| r.actuator_m3 * 1e6)
@@ -179,7 +179,7 @@ fn buckling(found: &[Snap]) -> String {
     largest.sort_by(|a, b| b.released_j.total_cmp(&a.released_j));
     let released_mj: f64 = found.iter().map(|s| s.released_j * 1e3).sum();
     let mut out = format!("\n{} buckling events, {released_mj:.0} mJ released in all; the largest:\n", found.len());
-    out += &Table::of(largest.into_iter().take(8))
+    out += &TextTable::of(largest.into_iter().take(8))
         .number("time s", 3, |s| s.time_s)
         .number("at mm", 0, |s| s.place_m * MM)
         .number("released mJ", 1, |s| s.released_j * 1e3)

@@ -47,7 +47,7 @@ pub fn text(answer: &ValidateAnswer) -> String {
     });
     let mut out = format!("{file}: {} on other data, nothing refitted{stiffness}\n", added.join(" and "));
     let levels = |l: &[f64]| l.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
-    out += &Table::of(*found)
+    out += &TextTable::of(*found)
         .words("data", |v| &v.data)
         .right("actuator kPa", |v| levels(&v.p_act_kpa))
         .right("body kPa", |v| levels(&v.p_body_kpa))

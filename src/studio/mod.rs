@@ -14,7 +14,7 @@ mod request;
 mod run;
 
 use request::{Request, Response};
-use run::Bench;
+use run::SharedStand;
 use std::hash::{BuildHasher, Hasher, RandomState};
 use std::io;
 use std::net::{TcpListener, TcpStream};
@@ -33,7 +33,7 @@ pub(crate) struct Studio {
     port: u16,
     token: String,
     page: String,
-    bench: Bench,
+    bench: SharedStand,
 }
 
 impl Studio {
@@ -42,7 +42,7 @@ impl Studio {
         let listener = TcpListener::bind(("127.0.0.1", port))?;
         let port = listener.local_addr()?.port();
         let page = page.replacen(MARK, "<meta name=\"ibr-studio\" content=\"finite elements\">", 1);
-        Ok(Studio { listener, port, token: token(), page, bench: Bench::default() })
+        Ok(Studio { listener, port, token: token(), page, bench: SharedStand::default() })
     }
 
     pub(crate) fn address(&self) -> String {

@@ -3,7 +3,7 @@
 use crate::studies::SMALL_RUN;
 use fem::FemError;
 use fem::robot::Reading;
-use fem::session::{FeRun, Settings, Source, simulate};
+use fem::session::{FeRun, RunSettings, Source, simulate};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
@@ -14,7 +14,7 @@ const STACK: usize = 16 << 20;
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Wish {
+struct RunRequest {
     name: String,
     text: String,
     actuator_kpa: f64,
@@ -28,7 +28,7 @@ struct Stand {
 }
 
 #[derive(Default)]
-pub(super) struct Bench {
+pub(super) struct SharedStand {
     stand: Arc<Mutex<Stand>>,
 }
 
@@ -37,14 +37,14 @@ fn of(stand: &Mutex<Stand>) -> std::sync::MutexGuard<'_, Stand> {
     stand.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-impl Bench {
+impl SharedStand {
     pub(super) fn told(&self) -> Value {
         of(&self.stand).told.clone().unwrap_or_else(|| json!({"state": "none"}))
     }
 
     /// Starts a run, unless one is under way.
     pub(super) fn start(&self, body: &[u8]) -> Value {
-        let wish: Wish = match serde_json::from_slice(body) {
+        let wish: RunRequest = match serde_json::from_slice(body) {
             Ok(wish) => wish,
             Err(error) => return failed(&format!("this is not a robot: {error}"), "send name, text and actuator_kpa"),
         };
@@ -89,11 +89,11 @@ impl Bench {
     }
 }
 
-fn run(wish: &Wish, stand: &Mutex<Stand>) -> Result<FeRun, FemError> {
+fn run(wish: &RunRequest, stand: &Mutex<Stand>) -> Result<FeRun, FemError> {
     let pressure = ("pressures_kpa".to_string(), format!("[{:?}]", wish.actuator_kpa));
     let coarse = SMALL_RUN.map(|(key, value)| (key.to_string(), value.to_string()));
     let source = Source::new(&wish.name, &wish.text).with(&[&coarse[..], &[pressure]].concat())?;
-    simulate(&source, &Settings::default(), &mut |what, share| {
+    simulate(&source, &RunSettings::default(), &mut |what, share| {
         let mut stand = of(stand);
         if stand.stop {
             return ControlFlow::Break(());

@@ -4,7 +4,7 @@ use crate::form::Wrong;
 use crate::policy::MOST_CASES;
 use compare::ScenarioFile;
 use fem::FemError;
-use fem::robot::Spread;
+use fem::robot::ValueSpacing;
 use fem::session::{Felt, felt, rounded};
 use models::{CHANNELS, Model};
 use serde::Deserialize;
@@ -137,7 +137,7 @@ pub(crate) fn assumed(base: &ScenarioFile, folder: &Path, axes: &[Axis]) -> Resu
         let [from, to] = number.interval.map(|si| rounded(si / key.si));
         Axis {
             key: format!("fem.{}", key.name),
-            levels: Levels::Between { from, to, log: number.spread == Spread::Factor },
+            levels: Levels::Between { from, to, log: number.spread == ValueSpacing::Factor },
         }
     };
     Ok(felt(&base.source(folder), &known)?.into_iter().map(of).collect())

@@ -1,27 +1,27 @@
 //! Parts by finite elements: one run per robot, read at all its pressures. Its folder is kept only on request.
 
 use crate::columns::{ACCOUNTS, columns};
-use crate::part::{Part, Rows};
+use crate::part::{Rows, StudyPart};
 use crate::study::{Output, Study};
 use compare::wording::short;
 use fem::FemError;
 use fem::robot::Reading;
-use fem::session::{FeRun, Job, Progress, Settings, simulate_each, simulate_job};
+use fem::session::{FeRun, Progress, RunJob, RunSettings, simulate_each, simulate_job};
 use models::CHANNELS;
 use std::path::Path;
 
 /// Runs the robots of the parts, and writes each part below `folder` as soon as it is complete; returns the processor time \[s\].
-/// With [`Settings::folder`] each run stays there, in a folder named by problem and engine, and is not made again.
+/// With [`RunSettings::folder`] each run stays there, in a folder named by problem and engine, and is not made again.
 pub(crate) fn compute(
     study: &Study,
-    parts: &[Part],
+    parts: &[StudyPart],
     folder: &Path,
-    settings: &Settings,
+    settings: &RunSettings,
     progress: Progress,
 ) -> Result<f64, FemError> {
     let width = columns(study).len();
     let times = simulate_each(parts.len(), settings.threads, progress, &|k, threads, tell| {
-        let (part, settings) = (&parts[k], Settings { threads, ..settings.clone() });
+        let (part, settings) = (&parts[k], RunSettings { threads, ..settings.clone() });
         let robots = part.robots(study.per_robot());
         let (first, count, mut rows) = (robots.start, robots.len() as f64, Rows::default());
         for robot in robots {
@@ -46,7 +46,7 @@ pub(crate) fn compute(
 }
 
 /// The run of a robot, which rises through its pressures; or why there is none.
-fn job(study: &Study, robot: usize) -> Result<(Job, Vec<f64>), String> {
+fn job(study: &Study, robot: usize) -> Result<(RunJob, Vec<f64>), String> {
     let (file, channels) = study.robot(robot).map_err(|error| error.to_string())?;
     // One pressure for all channels, or one pose with a pressure for each; read at the highest.
     let of_strips =
@@ -63,7 +63,7 @@ fn job(study: &Study, robot: usize) -> Result<(Job, Vec<f64>), String> {
     let holds = if study.has_channels() { format!("{channels:?}") } else { format!("{rising:?}") };
     let set = [("fem.pressures_kpa".to_string(), holds)];
     let file = file.with(&set).map_err(|error| error.to_string())?;
-    Ok((Job { source: file.source(&study.folder), what: format!("robot {}", robot + 1), folder: None }, kpa))
+    Ok((RunJob { source: file.source(&study.folder), what: format!("robot {}", robot + 1), folder: None }, kpa))
 }
 
 fn flat(kpa: f64, body_pa: f64) -> String {

@@ -14,7 +14,7 @@ const FORMAT: u32 = 2;
 
 /// Cases of one engine that are computed together.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Part {
+pub(crate) struct StudyPart {
     pub engine: Engine,
     /// Numbers of these cases among the study's.
     pub cases: Range<usize>,
@@ -31,14 +31,14 @@ pub(crate) struct Rows {
 
 /// The first line of a file.
 #[derive(Serialize, Deserialize)]
-struct Head {
+struct PartHead {
     ibr_sweep_part: u32,
     numbers: usize,
     failed: Vec<(usize, String)>,
     cpu_s: f64,
 }
 
-impl Part {
+impl StudyPart {
     /// Its file in the folder of a sweep: the hash of all that its numbers depend on, code by its version.
     pub(crate) fn path(&self, study: &Study, folder: &Path) -> PathBuf {
         let engine = match self.engine {
@@ -71,14 +71,14 @@ impl Part {
 }
 
 /// All parts of a study in order: equal pieces, for finite elements of whole robots.
-pub(crate) fn parts(study: &Study) -> Vec<Part> {
+pub(crate) fn parts(study: &Study) -> Vec<StudyPart> {
     let of = |engine: &Engine| {
         let (engine, cases, per_robot) = (*engine, study.cases(*engine), study.per_robot());
         let size = match engine {
             Engine::Reduced => cases.div_ceil(PARTS).clamp(PART[0], PART[1]),
             Engine::Elements => per_robot * (cases / per_robot).div_ceil(PARTS),
         };
-        (0..cases.div_ceil(size)).map(move |k| Part { engine, cases: k * size..cases.min((k + 1) * size) })
+        (0..cases.div_ceil(size)).map(move |k| StudyPart { engine, cases: k * size..cases.min((k + 1) * size) })
     };
     study.engines.iter().flat_map(of).collect()
 }
@@ -98,7 +98,7 @@ impl Rows {
 
     pub(crate) fn write(&self, path: &Path) -> Result<(), SweepError> {
         let Rows { numbers, failed, cpu_s } = self;
-        let head = Head { ibr_sweep_part: FORMAT, numbers: numbers.len(), failed: failed.clone(), cpu_s: *cpu_s };
+        let head = PartHead { ibr_sweep_part: FORMAT, numbers: numbers.len(), failed: failed.clone(), cpu_s: *cpu_s };
         let mut bytes = serde_json::to_vec(&head).unwrap_or_default();
         bytes.push(b'\n');
         bytes.extend(numbers.iter().flat_map(|x| x.to_le_bytes()));
@@ -113,7 +113,7 @@ impl Rows {
 
     fn decode(bytes: &[u8], count: usize) -> Option<Rows> {
         let end = bytes.iter().position(|b| *b == b'\n')?;
-        let head: Head = serde_json::from_slice(&bytes[..end]).ok()?;
+        let head: PartHead = serde_json::from_slice(&bytes[..end]).ok()?;
         let (values, rest) = bytes[end + 1..].as_chunks::<8>();
         let whole = head.ibr_sweep_part == FORMAT && head.numbers == count && values.len() == count && rest.is_empty();
         let numbers = values.iter().map(|b| f64::from_le_bytes(*b)).collect();

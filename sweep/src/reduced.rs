@@ -1,11 +1,11 @@
 //! A part by the reduced model.
 
 use crate::columns::{ACCOUNTS, columns};
-use crate::part::{Part, Rows};
+use crate::part::{Rows, StudyPart};
 use crate::study::{Output, Study};
 use models::{CHANNELS, Loads, Model, Prediction, Scenario};
 
-pub(crate) fn compute(study: &Study, part: &Part) -> Rows {
+pub(crate) fn compute(study: &Study, part: &StudyPart) -> Rows {
     let started = std::time::Instant::now();
     let width = columns(study).len();
     let mut rows = Rows { numbers: Vec::with_capacity(part.cases.len() * width), ..Rows::default() };

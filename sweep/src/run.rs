@@ -1,7 +1,7 @@
 //! A sweep, or a shard of it: computes the missing parts.
 
 use crate::columns::columns;
-use crate::part::{Part, Rows, parts};
+use crate::part::{Rows, StudyPart, parts};
 use crate::pieces::{self, beside};
 use crate::study::{Engine, Study};
 use crate::{SweepError, elements, reduced};
@@ -47,7 +47,7 @@ pub fn parts_missing(study: &Study, folder: &std::path::Path) -> usize {
 /// A part whose file is damaged.
 pub fn there(study: &Study, folder: &std::path::Path) -> Result<Found, SweepError> {
     let (all, width) = (parts(study), columns(study).len());
-    let read = |part: &Part| Rows::read(&part.path(study, folder), part.cases.len() * width);
+    let read = |part: &StudyPart| Rows::read(&part.path(study, folder), part.cases.len() * width);
     let found: Vec<Rows> = all.iter().map(read).filter_map(Result::transpose).collect::<Result<_, _>>()?;
     let (kept, cpu_s) = (found.len(), found.iter().map(|rows| rows.cpu_s).sum());
     Ok(Found { parts: all.len(), kept, missing: all.len() - kept, cpu_s })
@@ -61,18 +61,19 @@ pub fn run(study: &Study, settings: &Settings, progress: Progress) -> Result<Fou
     let width = columns(study).len();
     pieces::folder(&settings.folder.join("parts"))?;
     let all = parts(study);
-    let own: Vec<&Part> = settings.shard.own(&all).collect();
-    let there = |part: &Part| Rows::read(&part.path(study, &settings.folder), part.cases.len() * width);
+    let own: Vec<&StudyPart> = settings.shard.own(&all).collect();
+    let there = |part: &StudyPart| Rows::read(&part.path(study, &settings.folder), part.cases.len() * width);
     let before: Vec<Option<Rows>> = own.iter().map(|part| there(part)).collect::<Result<_, _>>()?;
     let kept = before.iter().flatten().count();
     let mut cpu_s: f64 = before.iter().flatten().map(|rows| rows.cpu_s).sum();
     let wanted = own.into_iter().zip(&before).filter(|(_, rows)| rows.is_none()).map(|(part, _)| part.clone());
-    let (quick, long): (Vec<Part>, Vec<Part>) = wanted.partition(|part| part.engine == Engine::Reduced);
+    let (quick, long): (Vec<StudyPart>, Vec<StudyPart>) = wanted.partition(|part| part.engine == Engine::Reduced);
     cpu_s += by_model(study, settings, &quick, progress)?;
     if !long.is_empty() {
         let (folder, maker) = (settings.keep_runs.then(|| settings.folder.join("runs")), settings.maker.clone());
-        let (threads, usual) = (settings.threads, fem::session::Settings::default());
-        let runs = fem::session::Settings { folder, frames: false, files: settings.keep_runs, threads, maker, ..usual };
+        let (threads, usual) = (settings.threads, fem::session::RunSettings::default());
+        let runs =
+            fem::session::RunSettings { folder, frames: false, files: settings.keep_runs, threads, maker, ..usual };
         cpu_s += elements::compute(study, &long, &settings.folder, &runs, progress)?;
     }
     let missing = parts_missing(study, &settings.folder);
@@ -80,7 +81,7 @@ pub fn run(study: &Study, settings: &Settings, progress: Progress) -> Result<Fou
 }
 
 /// Computes parts in parallel on threads, and writes each as soon as it is complete.
-fn by_model(study: &Study, settings: &Settings, parts: &[Part], progress: Progress) -> Result<f64, SweepError> {
+fn by_model(study: &Study, settings: &Settings, parts: &[StudyPart], progress: Progress) -> Result<f64, SweepError> {
     let one = |part: usize| -> Result<f64, SweepError> {
         let rows = reduced::compute(study, &parts[part]);
         rows.write(&parts[part].path(study, &settings.folder))?;

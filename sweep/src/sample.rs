@@ -1,6 +1,6 @@
 //! Where in its range each key is, case by case.
 
-use compare::study::generate::Scatter;
+use compare::study::generate::NormalNumbers;
 use serde::Deserialize;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -46,6 +46,6 @@ fn sobol(case: usize, axis: usize, seed: u32) -> f64 {
 }
 
 fn latin(cases: usize, axes: usize, seed: u32) -> Points {
-    let mut random = Scatter::new(u64::from(seed));
+    let mut random = NormalNumbers::new(u64::from(seed));
     Points { axes, all: fem::robot::latin(cases, axes, || random.uniform()) }
 }

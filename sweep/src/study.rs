@@ -70,9 +70,9 @@ pub struct Study {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Raw {
+struct RawStudy {
     #[serde(rename = "kind")]
-    _kind: Option<Kind>,
+    _kind: Option<StudyKind>,
     scenario: Spanned<String>,
     engines: Option<Spanned<Vec<Engine>>>,
     outputs: Option<Spanned<Vec<Output>>>,
@@ -84,7 +84,7 @@ struct Raw {
 
 #[derive(Deserialize)]
 #[serde(rename_all = "lowercase")]
-enum Kind {
+enum StudyKind {
     Sweep,
 }
 
@@ -113,7 +113,7 @@ struct RawSample {
     checked: Option<usize>,
 }
 
-const FORM: Form<Raw, Study> =
+const FORM: Form<RawStudy, Study> =
     Form { what: "study", page: "docs/sweep.md", scenario: |raw| &raw.scenario, of: Study::of };
 
 impl Study {
@@ -146,7 +146,7 @@ impl Study {
         Ok(self)
     }
 
-    fn of(raw: Raw, base: ScenarioFile, folder: &Path) -> Result<Study, Wrong> {
+    fn of(raw: RawStudy, base: ScenarioFile, folder: &Path) -> Result<Study, Wrong> {
         let engines = listed_once(raw.engines.as_ref(), &[Engine::Reduced], "engines")?;
         let outputs = listed_once(raw.outputs.as_ref(), &[Output::Tip, Output::Limits], "outputs")?;
         let raw_sample = raw.sample.as_ref();

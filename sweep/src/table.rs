@@ -3,7 +3,7 @@
 use crate::SweepError;
 use crate::axis::as_number;
 use crate::columns::{CPU_S, TRUSTED, columns};
-use crate::part::{Part, Rows, parts};
+use crate::part::{Rows, StudyPart, parts};
 use crate::study::{Engine, PRESSURE, Study};
 use data::table::{Column, Table};
 use std::path::Path;
@@ -30,7 +30,7 @@ pub fn collect(study: &Study, folder: &Path, so_far: bool) -> Result<Table, Swee
     let found = columns(study);
     let width = found.len();
     let all = parts(study);
-    let read = |part: &Part| Rows::read(&part.path(study, folder), part.cases.len() * width);
+    let read = |part: &StudyPart| Rows::read(&part.path(study, folder), part.cases.len() * width);
     let rows: Vec<Option<Rows>> = all.iter().map(read).collect::<Result<_, _>>()?;
     let missing = rows.iter().filter(|rows| rows.is_none()).count();
     if missing > 0 && !(so_far && missing < all.len()) {
@@ -40,7 +40,7 @@ pub fn collect(study: &Study, folder: &Path, so_far: bool) -> Result<Table, Swee
     let end = all.iter().map(|part| part.cases.end).max().unwrap_or(0);
     let values: Vec<Vec<Value>> = (0..end.div_ceil(per_robot)).map(|robot| study.values(robot)).collect();
     // Every case: its part, the rows of that, and which of them is its own.
-    let cases: Vec<(&Part, &Rows, usize, usize)> = all
+    let cases: Vec<(&StudyPart, &Rows, usize, usize)> = all
         .iter()
         .zip(&rows)
         .filter_map(|(part, rows)| Some((part, rows.as_ref()?)))
@@ -49,7 +49,7 @@ pub fn collect(study: &Study, folder: &Path, so_far: bool) -> Result<Table, Swee
     let place = |name: &str| found.iter().position(|known| known == name);
     let (timed, judged) = (place(CPU_S), place(TRUSTED));
     let number = |k: usize| {
-        let of = |(part, rows, i, _): &(&Part, &Rows, usize, usize)| match timed == Some(k) {
+        let of = |(part, rows, i, _): &(&StudyPart, &Rows, usize, usize)| match timed == Some(k) {
             true if part.engine == Engine::Reduced => rows.cpu_s / part.cases.len() as f64,
             _ => rows.numbers[i * width + k],
         };
@@ -65,7 +65,7 @@ pub fn collect(study: &Study, folder: &Path, so_far: bool) -> Result<Table, Swee
         common.or_else(|| as_number(&values[case / per_robot][own?])).unwrap_or(f64::NAN)
     };
     let of = |axis: usize| column(cases.iter().map(|c| values[c.3 / per_robot][axis].clone()).collect());
-    let why = |(_, rows, i, _): &(&Part, &Rows, usize, usize)| {
+    let why = |(_, rows, i, _): &(&StudyPart, &Rows, usize, usize)| {
         let failed = rows.failed.binary_search_by_key(i, |failed| failed.0);
         failed.ok().map(|at| rows.failed[at].1.replace('\n', " "))
     };

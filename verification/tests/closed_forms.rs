@@ -5,7 +5,7 @@
 use models::{Loads, Model, Prediction, Scenario, shipped};
 use std::f64::consts::PI;
 use verification::exact::fpam::{Fpam, bending_alpha, total_angle};
-use verification::exact::hinge::{Arm, BentBody, Lever, SeriesUnit, axis_point_m, equilibrium_theta, fold_angle};
+use verification::exact::hinge::{Arm, BentBody, LeverRule, SeriesUnit, axis_point_m, equilibrium_theta, fold_angle};
 use verification::exact::pouch::{Pouch, robin_end_factor};
 
 const PRESSURES: [f64; 5] = [2e3, 5e3, 10e3, 20e3, 30e3];
@@ -34,7 +34,7 @@ fn agree(scenario: &Scenario, p_act: f64, body: BentBody, what: &str) {
 
 fn pouch(scenario: &Scenario, unit: SeriesUnit, what: &str) {
     for p_act in PRESSURES {
-        let theta = equilibrium_theta(&unit, p_act, BODY_PA, Lever::VirtualWork);
+        let theta = equilibrium_theta(&unit, p_act, BODY_PA, LeverRule::VirtualWork);
         let total_angle = 6.0 * fold_angle(&unit, theta);
         agree(scenario, p_act, BentBody { body_radius_m: 0.04, length_m: 0.36, total_angle }, what);
     }
@@ -83,7 +83,7 @@ fn the_fabric_muscle_agrees_with_and_without_shear_stiffness() {
         scenario.hinge_curvature = 1e-3;
         let muscle = Fpam { flat_width_m: 0.06, rest_length_m: 0.3, shear_stiffness_n_per_m: shear };
         for p_act in [5e3, 10e3, 20e3, 30e3] {
-            let alpha = bending_alpha(&muscle, 0.04, p_act, BODY_PA, Lever::VirtualWork);
+            let alpha = bending_alpha(&muscle, 0.04, p_act, BODY_PA, LeverRule::VirtualWork);
             let total_angle = total_angle(&muscle, 0.04, alpha);
             assert!(total_angle / 0.3 > 20.0 * scenario.hinge_curvature, "{shear} {p_act}");
             agree(&scenario, p_act, BentBody { body_radius_m: 0.04, length_m: 0.3, total_angle }, "fpam");

@@ -6,7 +6,7 @@ use compare::study::engines::{EngineRun, EngineState, volumes};
 use compare::study::published_ladders;
 use models::{Loads, Model, Pose, PouchShape, Scenario, shipped};
 use std::f64::consts::{LN_2, PI};
-use verification::exact::hinge::{Arm, BentBody, Lever, SeriesUnit, axis_point_m, equilibrium_theta, fold_angle};
+use verification::exact::hinge::{Arm, BentBody, LeverRule, SeriesUnit, axis_point_m, equilibrium_theta, fold_angle};
 use verification::exact::pouch::{Pouch, contraction, sealed_volume_m3, volume_m3};
 
 fn epam() -> Scenario {
@@ -85,7 +85,7 @@ fn the_published_ladders_start_at_the_hinge_model() {
     let pouch = Pouch { length_m: 0.06, width_m: 0.06 };
     let height = |arm| {
         let unit = SeriesUnit { pouch, body_radius_m: 0.04, end_factor: 1.0, arm };
-        let theta = equilibrium_theta(&unit, 30e3, 2e3, Lever::VirtualWork);
+        let theta = equilibrium_theta(&unit, 30e3, 2e3, LeverRule::VirtualWork);
         let total_angle = 6.0 * fold_angle(&unit, theta);
         axis_point_m(&BentBody { body_radius_m: 0.04, length_m: 0.36, total_angle }, 0.33)[1]
     };

@@ -4,7 +4,7 @@ use crate::data_of::Measured;
 use crate::robot::Robot;
 use compare::CompareError;
 use compare::diagnosis::words::listed;
-use compare::diagnosis::{Answer, Diagnosis, Options, Standing, diagnose};
+use compare::diagnosis::{Diagnosis, EffectAnswer, Options, Standing, diagnose};
 use data::Dataset;
 use ibr::compared::Compared;
 use ibr::pages::{Diagnosed, Files, PageError, compare_files, demo_plots, diagnosis_plots, measured};
@@ -59,7 +59,7 @@ fn means(dataset: &Dataset) -> Value {
     json!((0..dataset.holds.len()).map(of).collect::<Vec<_>>())
 }
 
-fn candidate(d: &Diagnosis, answer: &Answer, level: usize) -> Value {
+fn candidate(d: &Diagnosis, answer: &EffectAnswer, level: usize) -> Value {
     let standing = match answer.standing {
         Standing::Stated => "stated",
         Standing::Attempt => "attempt",

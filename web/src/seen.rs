@@ -15,16 +15,16 @@ const END_ON: f64 = 1e-9;
 
 /// A view: x to the right, and the axis that is up.
 #[derive(Clone, Copy)]
-struct Side {
+struct SideView {
     axis: &'static str,
     up: usize,
     toward: [f64; 3],
 }
 
-const SIDES: [Side; 2] =
-    [Side { axis: "y", up: 1, toward: [0.0, 0.0, 1.0] }, Side { axis: "z", up: 2, toward: [0.0, -1.0, 0.0] }];
+const SIDES: [SideView; 2] =
+    [SideView { axis: "y", up: 1, toward: [0.0, 0.0, 1.0] }, SideView { axis: "z", up: 2, toward: [0.0, -1.0, 0.0] }];
 
-impl Side {
+impl SideView {
     fn flat(self, place: [f64; 3]) -> [f64; 2] {
         [place[0], place[self.up]]
     }
@@ -58,9 +58,9 @@ pub fn views(of: &Predictor, state: &AtPressure, stations: usize, with_units: bo
     let (tip, radius_m) = (frames.last()?, scenario.radius_m);
     let ring: Vec<[f64; 3]> = (0..RING).map(|k| on_wall(tip, TAU * k as f64 / RING as f64, radius_m)).collect();
     let strips = scenario.strips().enumerate().filter(|_| with_units);
-    let units: Vec<Unit> = strips.flat_map(|(i, strip)| placed(of, state, i, strip)).collect();
-    let view = |side: Side| {
-        let seen = |unit: &Unit| {
+    let units: Vec<WallUnit> = strips.flat_map(|(i, strip)| placed(of, state, i, strip)).collect();
+    let view = |side: SideView| {
+        let seen = |unit: &WallUnit| {
             let outline = hull(unit.points.iter().map(|p| side.flat(*p)).collect());
             json!({"outline": outline, "is_near": side.is_near(unit.outward)})
         };
@@ -80,13 +80,13 @@ fn on_wall(frame: &Frame, azimuth_rad: f64, from_axis_m: f64) -> [f64; 3] {
 }
 
 /// A unit on the wall: points all over it, and the way out in its middle.
-struct Unit {
+struct WallUnit {
     points: Vec<[f64; 3]>,
     outward: [f64; 3],
 }
 
 /// The units of a strip: pouches as lenses of their height, a muscle as a tube in pieces.
-fn placed(of: &Predictor, state: &AtPressure, index: usize, strip: &ActuatorChoice) -> Vec<Unit> {
+fn placed(of: &Predictor, state: &AtPressure, index: usize, strip: &ActuatorChoice) -> Vec<WallUnit> {
     let (scenario, model, at) = (&of.scenario, &of.model, &state.prediction);
     let (radius_m, is_pouch) = (scenario.radius_m, strip.kind.has_pouches());
     let count = if is_pouch { strip.count } else { PIECES };
@@ -110,7 +110,7 @@ fn placed(of: &Predictor, state: &AtPressure, index: usize, strip: &ActuatorChoi
         let all = (0..GRID[0] * GRID[1]).map(|k| point(step(k / GRID[1], GRID[0]), step(k % GRID[1], GRID[1])));
         let frame = model.frame_at(at, middle_m)?;
         let wall = on_wall(&frame, azimuth, 1.0);
-        Some(Unit { points: all.collect::<Option<_>>()?, outward: std::array::from_fn(|k| wall[k] - frame.at[k]) })
+        Some(WallUnit { points: all.collect::<Option<_>>()?, outward: std::array::from_fn(|k| wall[k] - frame.at[k]) })
     };
     (0..count).filter_map(unit).collect()
 }

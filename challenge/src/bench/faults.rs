@@ -17,7 +17,7 @@ const PROTOCOL_PA: [f64; 7] = [0.0, 10e3, 20e3, 30e3, 20e3, 10e3, 0.0];
 const BODY_PA: f64 = 2e3;
 
 /// How a fault gets into the data of a set.
-enum Fault {
+enum HiddenFault {
     /// Of the robot: an effect of the generator.
     Robot,
     /// The camera's picture of a point \[m\] in a hold.
@@ -29,25 +29,31 @@ enum Fault {
 }
 
 /// The kinds, by the name of the catalogue's effect.
-const KINDS: [(&str, Fault); 12] = [
-    ("weak_place", Fault::Robot),
-    ("tapered_wall", Fault::Robot),
-    ("tip_spring", Fault::Robot),
-    ("camera_lens", Fault::Robot),
-    ("camera_tilt", Fault::Camera(|p, _| tilted(p))),
-    ("camera_moved", Fault::Camera(|p, hold| if hold >= 3 { knocked(p) } else { p })),
-    ("clock_lag", Fault::Late(3.0)),
+const KINDS: [(&str, HiddenFault); 12] = [
+    ("weak_place", HiddenFault::Robot),
+    ("tapered_wall", HiddenFault::Robot),
+    ("tip_spring", HiddenFault::Robot),
+    ("camera_lens", HiddenFault::Robot),
+    ("camera_tilt", HiddenFault::Camera(|p, _| tilted(p))),
+    ("camera_moved", HiddenFault::Camera(|p, hold| if hold >= 3 { knocked(p) } else { p })),
+    ("clock_lag", HiddenFault::Late(3.0)),
     (
         "gauge_drift",
-        Fault::Pressures(|hold| [BODY_PA, when_filled(hold, -1.5e3 * (1.0 - (-(hold as f64) / 4.0).exp()))]),
+        HiddenFault::Pressures(|hold| [BODY_PA, when_filled(hold, -1.5e3 * (1.0 - (-(hold as f64) / 4.0).exp()))]),
     ),
     (
         "gauge_curve",
-        Fault::Pressures(|hold| [BODY_PA, when_filled(hold, 0.7e3 * (PI * PROTOCOL_PA[hold] / 30e3).sin())]),
+        HiddenFault::Pressures(|hold| [BODY_PA, when_filled(hold, 0.7e3 * (PI * PROTOCOL_PA[hold] / 30e3).sin())]),
     ),
-    ("regulator_hysteresis", Fault::Pressures(|hold| [BODY_PA, when_filled(hold, if hold > 3 { 1.2e3 } else { 0.0 })])),
-    ("body_leak", Fault::Pressures(|hold| [BODY_PA / (1.0 + 0.08 * hold as f64), PROTOCOL_PA[hold]])),
-    ("sealed_body", Fault::Pressures(|hold| [BODY_PA + 1e3 * (PROTOCOL_PA[hold] / 30e3).powf(0.8), PROTOCOL_PA[hold]])),
+    (
+        "regulator_hysteresis",
+        HiddenFault::Pressures(|hold| [BODY_PA, when_filled(hold, if hold > 3 { 1.2e3 } else { 0.0 })]),
+    ),
+    ("body_leak", HiddenFault::Pressures(|hold| [BODY_PA / (1.0 + 0.08 * hold as f64), PROTOCOL_PA[hold]])),
+    (
+        "sealed_body",
+        HiddenFault::Pressures(|hold| [BODY_PA + 1e3 * (PROTOCOL_PA[hold] / 30e3).powf(0.8), PROTOCOL_PA[hold]]),
+    ),
 ];
 
 /// Sets of a round: every kind on every robot.
@@ -111,7 +117,7 @@ pub(super) fn fault(seed: u64, index: usize, diagnose: Diagnoser) -> Result<Faul
     let (name, kind) = &KINDS[index / ROBOTS.len() % KINDS.len()];
     let robot = ROBOTS[index % ROBOTS.len()].0;
     let mut truth = Truth::draw(robot, &mut Draw::new(seed, STREAM + index as u64))?;
-    if matches!(kind, Fault::Robot) {
+    if matches!(kind, HiddenFault::Robot) {
         truth.add(name, 1.0);
     }
     let evidence = [Evidence::of(recorded(&truth, kind)?, Some(about(&truth)?))];
@@ -120,23 +126,23 @@ pub(super) fn fault(seed: u64, index: usize, diagnose: Diagnoser) -> Result<Faul
     Ok(FaultSet { fault: (*name).into(), truth, verdict: found.verdict, stated: found.indistinguishable })
 }
 
-fn recorded(truth: &Truth, fault: &Fault) -> Result<Dataset, CompareError> {
+fn recorded(truth: &Truth, fault: &HiddenFault) -> Result<Dataset, CompareError> {
     let set: Vec<[f64; 2]> = PROTOCOL_PA.map(|p| [BODY_PA, p]).to_vec();
     let there = match fault {
-        Fault::Pressures(there) => (0..set.len()).map(there).collect(),
+        HiddenFault::Pressures(there) => (0..set.len()).map(there).collect(),
         _ => set.clone(),
     };
     let mut made = truth.dataset("fault", &there)?;
     let written = truth.dataset("fault", &set)?;
     let hold_values = made.values_per_run() / made.holds.len();
     match fault {
-        Fault::Camera(see) => {
+        HiddenFault::Camera(see) => {
             for (i, point) in made.coordinates_m.as_chunks_mut::<2>().0.iter_mut().enumerate() {
                 *point = see(*point, 2 * i / hold_values % set.len());
             }
         }
-        Fault::Late(lag_s) => show_late(&mut made, *lag_s),
-        Fault::Robot | Fault::Pressures(_) => {}
+        HiddenFault::Late(lag_s) => show_late(&mut made, *lag_s),
+        HiddenFault::Robot | HiddenFault::Pressures(_) => {}
     }
     Ok(Dataset { holds: written.holds, ..made })
 }

@@ -15,7 +15,7 @@ use crate::tested::bench_tests;
 use crate::truth::standard_protocol;
 use compare::diagnosis::{BENDING_TEST, BENDING_TEST_NAME, Experiment};
 use compare::error::CompareError;
-use compare::study::generate::{Generator, Scatter, holds};
+use compare::study::generate::{Generator, NormalNumbers, holds};
 use compare::study::parse_protocol;
 use data::{About, AboutRun, Dataset, Direct, Hold};
 
@@ -81,7 +81,7 @@ pub(super) fn follow_up(truth: &Truth, experiment: &Experiment) -> Result<Vec<(D
 
 /// The description of a set, with the robot's bending stiffness from a separate test.
 pub(super) fn tested(truth: &Truth) -> Result<About, CompareError> {
-    let error = BENDING_TEST * Scatter::new(truth.seed ^ 0xB).normal();
+    let error = BENDING_TEST * NormalNumbers::new(truth.seed ^ 0xB).normal();
     let found_nm2 = truth.bending_nm2 * (1.0 + error);
     Ok(About { bending_nm2: Some([found_nm2, BENDING_TEST * found_nm2]), ..description(truth)? })
 }

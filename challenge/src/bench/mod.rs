@@ -102,14 +102,14 @@ const WHOLE: usize = 50;
 
 /// A bench that is planned: pieces of work that do not depend on each other, and have one answer on any machine.
 #[derive(Debug, Clone)]
-pub struct Bench {
+pub struct PlannedBench {
     /// Size, seed and laws of the bench.
     pub options: DiscoveryOptions,
-    pieces: Vec<Piece>,
+    pieces: Vec<BenchPiece>,
 }
 
 #[derive(Debug, Clone)]
-enum Piece {
+enum BenchPiece {
     /// A set that was drawn for the plan.
     Set(PlannedSet),
     /// Finite element data of a robot.
@@ -123,11 +123,11 @@ enum Piece {
 }
 
 /// What a piece gave, or why it failed.
-pub type Answer = Result<Given, String>;
+pub type Answer = Result<PieceResult, String>;
 
 /// What a piece of work gave.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub enum Given {
+pub enum PieceResult {
     /// Of a set that was drawn for the plan.
     Set(Box<Named>),
     /// Of finite element data, mechanism by mechanism.
@@ -140,20 +140,20 @@ pub enum Given {
     Fault(Box<FaultSet>),
 }
 
-impl Bench {
+impl PlannedBench {
     /// Draws all sets.
     ///
     /// # Errors
     /// A shipped scenario is damaged.
-    pub fn plan(options: DiscoveryOptions) -> Result<Bench, CompareError> {
-        let mut pieces: Vec<Piece> = plan(&options)?.into_iter().map(Piece::Set).collect();
-        pieces.extend((0..surplus::count(options.sets)).map(|index| Piece::Surplus(options.seed, index)));
-        pieces.extend((0..faults::count(options.sets)).map(|index| Piece::Fault(options.seed, index)));
+    pub fn plan(options: DiscoveryOptions) -> Result<PlannedBench, CompareError> {
+        let mut pieces: Vec<BenchPiece> = plan(&options)?.into_iter().map(BenchPiece::Set).collect();
+        pieces.extend((0..surplus::count(options.sets)).map(|index| BenchPiece::Surplus(options.seed, index)));
+        pieces.extend((0..faults::count(options.sets)).map(|index| BenchPiece::Fault(options.seed, index)));
         if options.sets >= WHOLE {
-            pieces.extend(made::MADE.map(Piece::Made));
-            pieces.extend((0..slipped::count(options.sets)).map(|index| Piece::Slipped(options.seed, index)));
+            pieces.extend(made::MADE.map(BenchPiece::Made));
+            pieces.extend((0..slipped::count(options.sets)).map(|index| BenchPiece::Slipped(options.seed, index)));
         }
-        Ok(Bench { options, pieces })
+        Ok(PlannedBench { options, pieces })
     }
 
     /// What the answer to each piece depends on, in addition to the program.
@@ -164,18 +164,18 @@ impl Bench {
     /// Makes the data of a piece and diagnoses them.
     pub fn answer(&self, piece: usize, diagnose: Diagnoser) -> Answer {
         let (found, what) = match &self.pieces[piece] {
-            Piece::Set(set) => return cases::named(set, diagnose).map(|named| Given::Set(Box::new(named))),
-            Piece::Slipped(seed, index) => {
-                return slipped::slipped(*seed, *index, diagnose).map(|set| Given::Slipped(Box::new(set)));
+            BenchPiece::Set(set) => return cases::named(set, diagnose).map(|named| PieceResult::Set(Box::new(named))),
+            BenchPiece::Slipped(seed, index) => {
+                return slipped::slipped(*seed, *index, diagnose).map(|set| PieceResult::Slipped(Box::new(set)));
             }
-            Piece::Made(robot) => (made::made(robot, diagnose).map(Given::Made), format!("fem-{robot}")),
-            Piece::Surplus(seed, index) => {
+            BenchPiece::Made(robot) => (made::made(robot, diagnose).map(PieceResult::Made), format!("fem-{robot}")),
+            BenchPiece::Surplus(seed, index) => {
                 let found = surplus::surplus(*seed, *index, diagnose);
-                (found.map(|set| Given::Surplus(Box::new(set))), "an effect too many".into())
+                (found.map(|set| PieceResult::Surplus(Box::new(set))), "an effect too many".into())
             }
-            Piece::Fault(seed, index) => {
+            BenchPiece::Fault(seed, index) => {
                 let found = faults::fault(*seed, *index, diagnose);
-                (found.map(|set| Given::Fault(Box::new(set))), "a fault".into())
+                (found.map(|set| PieceResult::Fault(Box::new(set))), "a fault".into())
             }
         };
         found.map_err(|error| format!("{what}: {error}"))
@@ -189,16 +189,16 @@ impl Bench {
             let (given, failure) = answer.map_or_else(|why| (None, Some(why)), |given| (Some(given), None));
             failed.extend(failure);
             match (piece, given) {
-                (Piece::Set(PlannedSet { part, truth }), None) => {
+                (BenchPiece::Set(PlannedSet { part, truth }), None) => {
                     outcomes.push(SetOutcome { part, truth, named: None });
                 }
-                (Piece::Set(PlannedSet { part, truth }), Some(Given::Set(named))) => {
+                (BenchPiece::Set(PlannedSet { part, truth }), Some(PieceResult::Set(named))) => {
                     outcomes.push(SetOutcome { part, truth, named: Some(*named) });
                 }
-                (Piece::Made(_), Some(Given::Made(found))) => made.extend(found),
-                (Piece::Surplus(..), Some(Given::Surplus(found))) => surplus.push(*found),
-                (Piece::Slipped(..), Some(Given::Slipped(found))) => slipped.push(*found),
-                (Piece::Fault(..), Some(Given::Fault(found))) => faults.push(*found),
+                (BenchPiece::Made(_), Some(PieceResult::Made(found))) => made.extend(found),
+                (BenchPiece::Surplus(..), Some(PieceResult::Surplus(found))) => surplus.push(*found),
+                (BenchPiece::Slipped(..), Some(PieceResult::Slipped(found))) => slipped.push(*found),
+                (BenchPiece::Fault(..), Some(PieceResult::Fault(found))) => faults.push(*found),
                 (_, None) => {}
                 (piece, Some(_)) => failed.push(format!("{piece:?}: an answer to something else")),
             }

@@ -15,7 +15,7 @@ use crate::truth::standard_protocol;
 use crate::{HIDDEN, Truth, truth};
 use compare::error::CompareError;
 use compare::noise::NoiseModel;
-use compare::study::generate::{Generator, Scatter, holds};
+use compare::study::generate::{Generator, NormalNumbers, holds};
 use data::Dataset;
 
 /// Sizes at which the laws are asked \[typical sizes\]: the range that is drawn from.
@@ -133,7 +133,7 @@ impl Eyes {
 
     /// Shares of drawn noise in which each of two is so.
     fn shares(&self, seed: u64, is_so: impl Fn(&[f64]) -> [bool; 2]) -> [f64; 2] {
-        let mut scatter = Scatter::new(seed);
+        let mut scatter = NormalNumbers::new(seed);
         let mut hits = [0.0; 2];
         for _ in 0..DRAWS {
             let drawn = without(&self.bending, self.mean.iter().map(|_| scatter.normal()).collect());

@@ -52,7 +52,7 @@ fn the_plan_follows_from_the_seed() {
 #[test]
 fn a_diagnosis_that_fails_is_counted_and_named() {
     let refuse: Diagnoser = |_, _, _, _| Err(CompareError::NoModel);
-    let bench = Bench::plan(DiscoveryOptions { seed: 1, sets: WHOLE, laws: Laws::First }).unwrap();
+    let bench = PlannedBench::plan(DiscoveryOptions { seed: 1, sets: WHOLE, laws: Laws::First }).unwrap();
     let sets = plan(&bench.options).unwrap().len();
     let answers: Vec<Answer> = (0..bench.pieces.len()).map(|piece| bench.answer(piece, refuse)).collect();
     assert_eq!(
@@ -74,7 +74,8 @@ fn a_diagnosis_that_fails_is_counted_and_named() {
 /// Keys name files: two pieces with one key would have one answer.
 #[test]
 fn every_piece_has_a_key_of_its_own() {
-    let keys = |seed: u64| Bench::plan(DiscoveryOptions { seed, sets: WHOLE, laws: Laws::First }).unwrap().keys();
+    let keys =
+        |seed: u64| PlannedBench::plan(DiscoveryOptions { seed, sets: WHOLE, laws: Laws::First }).unwrap().keys();
     let (mut one, other) = (keys(1), keys(2));
     let made = one.iter().filter(|key| other.contains(key)).count();
     assert_eq!(made, made::MADE.len(), "only the finite element data know no seed");

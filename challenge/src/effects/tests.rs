@@ -242,7 +242,7 @@ fn the_weight_is_w_l_wherever_it_sits_and_a_hose_on_the_table_weighs_nothing() {
     near(along + heavy.loads.cap_n, 1.5 * heavy.length_m, 1e-12);
     near(heavy.loads.cap_n, 0.5 * heavy.length_m, 1e-12);
     let mut hose = robot("epam", "tip_load", 2.0).loads;
-    let along_gravity = |loads: &crate::loads::DeadLoads, height_m: f64| {
+    let along_gravity = |loads: &crate::loads::AttachedLoads, height_m: f64| {
         let force = loads.on_tip(loads.down.map(|d| -height_m * d));
         force[0] * loads.down[0] + force[1] * loads.down[1]
     };

@@ -1,11 +1,11 @@
 //! A scenario and its datasets made ready for hypotheses: noise, calibrated base, catalogue.
 
 use super::candidates::{Candidate, candidates, hold, present, surplus, taken_away, tried_between};
-use super::known::{Known, add_shapes, known, make_room};
+use super::known::{KnownParameter, add_shapes, known, make_room};
 use super::options::Options;
-use super::problem::{Block, Fit, Problem};
+use super::problem::{Block, Fit, FitProblem};
 use super::screen::{bound, trace};
-use super::source::{Source, body_pressures};
+use super::source::{DiagnosisSource, body_pressures};
 use crate::beside_mean::BesideMean;
 use crate::error::CompareError;
 use crate::fit::basis::{Basis, cosine};
@@ -24,14 +24,14 @@ const ENOUGH: f64 = 1e-4;
 const EIGEN_ROUNDS: usize = 1000;
 
 /// Noise of a source, given its ∂f/∂ln p.
-type NoiseOf<'n> = dyn Fn(&Source, &[f64]) -> Result<NoiseModel, CompareError> + 'n;
+type NoiseOf<'n> = dyn Fn(&DiagnosisSource, &[f64]) -> Result<NoiseModel, CompareError> + 'n;
 
-pub(crate) struct Case<'a> {
+pub(crate) struct DiagnosisCase<'a> {
     /// All data; errors in millimetres, places and held-out parts refer to the first.
-    pub sources: &'a [Source],
+    pub sources: &'a [DiagnosisSource],
     /// Noise of the mean of each source.
     pub noises: Vec<NoiseModel>,
-    pub problem: Problem<'a>,
+    pub problem: FitProblem<'a>,
     /// Effects in every hypothesis: the scenario's own, if they are refitted.
     pub always: Vec<usize>,
     /// Candidates that are fitted as missing, as indices into the catalogue.
@@ -49,7 +49,7 @@ pub(crate) struct Case<'a> {
 
 /// Catalogue of a diagnosis: the scenario's own effects first if they are refitted, then those that may be missing, then those that may
 /// be one too many; without effects of which nothing is left to be seen in any of the data.
-pub(super) fn catalogue(sources: &[Source], options: &Options) -> (Vec<Candidate>, usize) {
+pub(super) fn catalogue(sources: &[DiagnosisSource], options: &Options) -> (Vec<Candidate>, usize) {
     let scenario = sources[0].as_given();
     let open = |c: &Candidate| sources.iter().any(|source| source.shows(c.stage));
     let mut list = if options.refit_present { present(scenario) } else { Vec::new() };
@@ -70,13 +70,13 @@ pub(super) fn catalogue(sources: &[Source], options: &Options) -> (Vec<Candidate
     (list, own)
 }
 
-impl<'a> Case<'a> {
+impl<'a> DiagnosisCase<'a> {
     /// Estimates the noise and fits the base, twice: each needs the other.
     pub(crate) fn new(
-        sources: &'a [Source],
+        sources: &'a [DiagnosisSource],
         (candidates, own): (&'a [Candidate], usize),
         options: &Options,
-    ) -> Result<Case<'a>, CompareError> {
+    ) -> Result<DiagnosisCase<'a>, CompareError> {
         if let Some(source) = sources.iter().skip(1).find(|s| s.dataset.runs.len() < policy::FEWEST_RUNS) {
             let (name, runs) = (&source.dataset.name, source.dataset.runs.len());
             return Err(CompareError::told(format!(
@@ -85,19 +85,19 @@ impl<'a> Case<'a> {
                 policy::FEWEST_RUNS
             )));
         }
-        let estimate = |source: &Source, slope: &[f64]| {
+        let estimate = |source: &DiagnosisSource, slope: &[f64]| {
             let noise = NoiseModel::estimate(&source.dataset, slope, &source.sessions, options.sigma_m)?;
             source.at_readings(noise, slope)
         };
-        Case::with_noise(sources, &estimate, (candidates, own), options)
+        DiagnosisCase::with_noise(sources, &estimate, (candidates, own), options)
     }
 
     pub(crate) fn with_noise(
-        sources: &'a [Source],
+        sources: &'a [DiagnosisSource],
         noise: &NoiseOf,
         (candidates, own): (&'a [Candidate], usize),
         options: &Options,
-    ) -> Result<Case<'a>, CompareError> {
+    ) -> Result<DiagnosisCase<'a>, CompareError> {
         let first = &sources[0];
         let known_bending = sources.iter().find_map(|source| source.bending_nm2);
         let mut known = known(sources.iter().flat_map(|source| &source.measured), candidates, first.as_given())?;
@@ -110,7 +110,9 @@ impl<'a> Case<'a> {
         let always: Vec<usize> = (0..own).collect();
         let values: Vec<f64> = candidates[..own].iter().flat_map(|c| c.own_values(first.as_given())).collect();
         let slopes = sources.iter().map(|s| first_slope(&s.scenario, &s.dataset)).collect::<Result<Vec<_>, _>>()?;
-        let fit = |slopes: &[Vec<f64>], known: &[Known]| -> Result<(Vec<NoiseModel>, Problem<'a>, Fit), CompareError> {
+        let fit = |slopes: &[Vec<f64>],
+                   known: &[KnownParameter]|
+         -> Result<(Vec<NoiseModel>, FitProblem<'a>, Fit), CompareError> {
             let (mut noises, mut blocks) = (Vec::new(), Vec::new());
             for (source, slope) in sources.iter().zip(slopes) {
                 let noise = noise(source, slope)?;
@@ -118,7 +120,7 @@ impl<'a> Case<'a> {
                 noises.push(noise);
             }
             let (bendings, known) = (levels.len(), known.to_vec());
-            let problem = Problem { candidates, blocks, bendings, known_bending, known, enough: ENOUGH };
+            let problem = FitProblem { candidates, blocks, bendings, known_bending, known, enough: ENOUGH };
             let base = problem.fit_base(&always, &values).ok_or_else(no_base)?;
             Ok((noises, problem, base))
         };
@@ -128,7 +130,7 @@ impl<'a> Case<'a> {
         let (noises, problem, base) = fit(&slopes?, &known)?;
         let d_max_m = BesideMean::new(&first.dataset, &noises[0], &first.dataset.mean_over_runs())?.d_max_m;
         let tried = own..candidates.len();
-        Ok(Case {
+        Ok(DiagnosisCase {
             sources,
             noises,
             always,
@@ -143,7 +145,7 @@ impl<'a> Case<'a> {
     }
 
     /// The data to which errors in millimetres, places and held-out parts refer.
-    pub(crate) fn first(&self) -> &'a Source {
+    pub(crate) fn first(&self) -> &'a DiagnosisSource {
         &self.sources[0]
     }
 
@@ -261,7 +263,7 @@ impl<'a> Case<'a> {
 
 /// Effective number of independent tests, `(Σ√λ)²/Σλ` over the eigenvalues λ of the correlations between the effects' first
 /// traces (Galwey 2009): twins are one test, not two. An effect without a first trace, a threshold, counts as one more.
-fn independent_tests(problem: &Problem, base: &Fit, tried: std::ops::Range<usize>) -> f64 {
+fn independent_tests(problem: &FitProblem, base: &Fit, tried: std::ops::Range<usize>) -> f64 {
     let free = Basis::of(&base.minimum.jacobian);
     let count = tried.len();
     let traces: Vec<Vec<f64>> = tried.filter_map(|e| trace(problem, base, &free, e)).collect();
@@ -284,7 +286,7 @@ fn error_mm(prediction_m: &[f64], mean_m: &[f64], noise: &NoiseModel) -> f64 {
 }
 
 /// ∂f/∂ln p of a fit in a block \[m\].
-fn derivative(problem: &Problem, block: &Block, fit: &Fit) -> Result<Vec<f64>, CompareError> {
+fn derivative(problem: &FitProblem, block: &Block, fit: &Fit) -> Result<Vec<f64>, CompareError> {
     let mut slope = vec![0.0; block.target_m.len()];
     let scenarios = problem.scenarios(block, &fit.effects, fit.theta());
     for (group, scenario) in scenarios.iter().enumerate() {

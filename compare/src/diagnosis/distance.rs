@@ -10,11 +10,11 @@
 //! explanation sees the difference more often than Φ(√λ − z_{1−α}); one that knows neither the size and kind of what it looks
 //! for nor the noise sees it less often.
 
-use super::case::{Case, catalogue};
+use super::case::{DiagnosisCase, catalogue};
 use super::options::Options;
 use super::pairs::fit_pairs;
 use super::singles::fit_all;
-use super::source::Source;
+use super::source::DiagnosisSource;
 use crate::error::CompareError;
 use crate::noise::NoiseModel;
 use crate::study::fit_scenario;
@@ -58,11 +58,12 @@ pub fn distances(
 ) -> Result<Distances, CompareError> {
     let (fitted, _) = fit_scenario(scenario, ideal, about)?;
     let options = Options::default();
-    let sources = [Source::of(fitted, ideal.clone(), about)];
+    let sources = [DiagnosisSource::of(fitted, ideal.clone(), about)];
     let (candidates, own) = catalogue(&sources, &options);
-    let known = |_: &Source, slope: &[f64]| NoiseModel::known(ideal, slope, noise.runs, noise.sigma_m, noise.run_sd);
+    let known =
+        |_: &DiagnosisSource, slope: &[f64]| NoiseModel::known(ideal, slope, noise.runs, noise.sigma_m, noise.run_sd);
     let mut wider = Vec::new();
-    let mut case = Case::with_noise(&sources, &known, (&candidates, own), &options)?;
+    let mut case = DiagnosisCase::with_noise(&sources, &known, (&candidates, own), &options)?;
     let (singles, _) = fit_all(&mut case, &mut wider, &mut |_, _| ());
     let base = case.base.cost();
     let allowed = singles.iter().filter(|fit| !case.is_rejected(fit));

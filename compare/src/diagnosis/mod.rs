@@ -31,7 +31,7 @@ pub(crate) mod verdict;
 pub use crate::prepare::{Outliers, OutlyingRun};
 pub use crate::slips::pressure::{BestEffect, PressureSlipFound};
 pub(crate) use answers::in_step;
-pub use answers::{Answer, Standing, with_fitted};
+pub use answers::{EffectAnswer, Standing, with_fitted};
 pub use bench::{BenchDiagnosis, BenchOptions, BenchRanked, LeftOut, diagnose_bench};
 pub use candidates::taken_away;
 pub use distance::{Distances, KnownNoise, distances, power};
@@ -50,15 +50,15 @@ use crate::progress::shares::{DIAGNOSIS, PAIRS};
 use crate::progress::{Progress, part};
 use crate::slips::pressure::pressure_words;
 use assemble::{Beside, assemble};
-use case::{Case, catalogue};
+use case::{DiagnosisCase, catalogue};
 use decide::decide;
 use hypotheses::{candidates, detect, evaluator, heldout, interval, known, order, pairs, problem, screen, singles};
 use models::Scenario;
 use moments::{learned, missing};
 use next::{experiments, worth};
 use other_design::other_design;
-use pressures::Pressures;
-use source::Source;
+use pressures::PressureCheck;
+use source::DiagnosisSource;
 use story::story;
 use verdict::{assemble, bending_alarm, closest, decide, lack_of_fit, left_patterns, limits, patterns, pressures};
 
@@ -82,12 +82,13 @@ pub fn diagnose(
     // Another simulator's design is not the scenario's.
     let is_ours = evidence.iter().all(|one| one.base.is_none());
     let options = &Options { other_design: options.other_design && is_ours, ..options.clone() };
-    let (sources, mut warnings) = Source::all(scenario, evidence)?;
+    let (sources, mut warnings) = DiagnosisSource::all(scenario, evidence)?;
     warnings.extend(sources.iter().flat_map(|source| known::unusual(&source.measured, scenario)));
     let (candidates, own) = catalogue(&sources, options);
     let mut wider = Vec::new();
-    let pressures = Pressures { sources: &sources, options };
-    let mut case = Case::new(&sources, (&candidates, own), options).map_err(|error| pressures.refusal(error))?;
+    let pressures = PressureCheck { sources: &sources, options };
+    let mut case =
+        DiagnosisCase::new(&sources, (&candidates, own), options).map_err(|error| pressures.refusal(error))?;
     let [of_singles, of_pairs] = [[0.0, PAIRS], [PAIRS, 1.0]].map(|ends| ends.map(|end| end * DIAGNOSIS[0]));
     let singles = singles::fit_all(&mut case, &mut wider, &mut part(progress, of_singles));
     let case = case;

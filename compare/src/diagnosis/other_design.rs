@@ -1,13 +1,13 @@
 //! The same data diagnosed with another design of the robot.
 
 use super::candidates::WITHOUT;
-use super::case::{Case, catalogue};
+use super::case::{DiagnosisCase, catalogue};
 use super::decide::decide;
 use super::options::Options;
 use super::problem::Fit;
 use super::result::{Diagnosis, OtherDesign, Verdict};
 use super::singles::fit_all;
-use super::source::Source;
+use super::source::DiagnosisSource;
 use crate::error::CompareError;
 use crate::evidence::Evidence;
 use crate::policy;
@@ -81,11 +81,11 @@ fn of_design(
     options: &Options,
     own_mm: f64,
 ) -> Result<Option<OtherDesign>, CompareError> {
-    let (sources, _) = Source::all(scenario, evidence)?;
+    let (sources, _) = DiagnosisSource::all(scenario, evidence)?;
     let (candidates, own) = catalogue(&sources, options);
     let mut wider = Vec::new();
-    let mut case = Case::new(&sources, (&candidates, own), options)?;
-    let error_mm = |case: &Case, fit: &Fit| case.error_mm(&case.prediction(fit));
+    let mut case = DiagnosisCase::new(&sources, (&candidates, own), options)?;
+    let error_mm = |case: &DiagnosisCase, fit: &Fit| case.error_mm(&case.prediction(fit));
     let systematic_mm = error_mm(&case, &case.base);
     if !policy::may_be_made_so(systematic_mm, own_mm) {
         return Ok(None);

@@ -55,7 +55,7 @@ pub(super) fn nearest(levels: &[f64], p: f64) -> usize {
 
 /// A dataset, its base as measured there, and further measurements of the same robot.
 #[derive(Clone)]
-pub(crate) struct Source {
+pub(crate) struct DiagnosisSource {
     /// The base with the dataset's markers and loads, without effects of what was measured directly.
     pub scenario: Scenario,
     /// The data without copies and strays; with a gauge at its readings.
@@ -76,10 +76,10 @@ pub(crate) struct Source {
     pub slips: Vec<String>,
 }
 
-impl Source {
+impl DiagnosisSource {
     /// Of data as they are, with a scenario that is fitted to them.
-    pub(crate) fn of(scenario: Scenario, dataset: Dataset, about: Option<&About>) -> Source {
-        Source {
+    pub(crate) fn of(scenario: Scenario, dataset: Dataset, about: Option<&About>) -> DiagnosisSource {
+        DiagnosisSource {
             scenario,
             dataset,
             sessions: Vec::new(),
@@ -94,7 +94,10 @@ impl Source {
     }
 
     /// Of evidence made ready, with cautions.
-    pub(crate) fn prepared(scenario: &Scenario, evidence: &Evidence) -> Result<(Source, Vec<String>), CompareError> {
+    pub(crate) fn prepared(
+        scenario: &Scenario,
+        evidence: &Evidence,
+    ) -> Result<(DiagnosisSource, Vec<String>), CompareError> {
         let (dataset, about) = (&evidence.dataset, evidence.about.as_ref());
         Layout::of(dataset)?;
         let (scenario, mut warnings) = fit_scenario(scenario, dataset, about)?;
@@ -102,7 +105,7 @@ impl Source {
         let mut prepared = prepare(dataset, about);
         warnings.append(&mut prepared.warnings);
         let dataset_seen = seen_by(&scenario, prepared.dataset);
-        let mut source = Source::of(scenario, dataset_seen, about);
+        let mut source = DiagnosisSource::of(scenario, dataset_seen, about);
         if source.direct.pressure && dataset.gauge_pa.is_some() {
             let own = "about.toml has [direct] pressure, so p_act is the actuator's own";
             warnings.push(format!("{own} and the column p_gauge was not used"));
@@ -118,11 +121,14 @@ impl Source {
             source.scenario = without_settled(&source.scenario, source.direct);
         }
         let (sessions, outliers) = (prepared.sessions, prepared.outliers);
-        Ok((Source { sessions, gauge, outliers, slips, ..source }, warnings))
+        Ok((DiagnosisSource { sessions, gauge, outliers, slips, ..source }, warnings))
     }
 
-    pub(crate) fn all(scenario: &Scenario, evidence: &[Evidence]) -> Result<(Vec<Source>, Vec<String>), CompareError> {
-        let (mut sources, mut warnings) = (Vec::<Source>::new(), Vec::new());
+    pub(crate) fn all(
+        scenario: &Scenario,
+        evidence: &[Evidence],
+    ) -> Result<(Vec<DiagnosisSource>, Vec<String>), CompareError> {
+        let (mut sources, mut warnings) = (Vec::<DiagnosisSource>::new(), Vec::new());
         for (i, measured) in evidence.iter().enumerate() {
             let name = &measured.dataset.name;
             if evidence[..i].iter().any(|seen| seen.dataset.coordinates_m == measured.dataset.coordinates_m) {
@@ -134,7 +140,7 @@ impl Source {
             let own = own.map_or(scenario.gravity_direction, |[x, y]| [x, y, 0.0]);
             let rolled = sources.first().is_some_and(|first| is_rolled(own, first.scenario.gravity_direction));
             let base = if rolled { seen_rolled(scenario) } else { scenario.clone() };
-            let (source, told) = Source::prepared(&base, measured)?;
+            let (source, told) = DiagnosisSource::prepared(&base, measured)?;
             let bending = source.contradicts_bending(&sources).then(|| "bending".to_string());
             let effect = sources.iter().find_map(|known| known.contradicts(&source));
             for what in bending.into_iter().chain(effect.map(|effect| format!("measured.{effect}"))) {
@@ -144,19 +150,19 @@ impl Source {
             let of = if i > 0 { format!("{name}: ") } else { String::new() };
             warnings.extend(source.slips.iter().cloned());
             warnings.extend(told.into_iter().map(|warning| format!("{of}{warning}")));
-            sources.push(Source { rolled, ..source });
+            sources.push(DiagnosisSource { rolled, ..source });
         }
         Ok((sources, warnings))
     }
 
     /// An effect of which the other description measures the same parameter, and not the same.
-    fn contradicts<'m>(&self, other: &'m Source) -> Option<&'m str> {
+    fn contradicts<'m>(&self, other: &'m DiagnosisSource) -> Option<&'m str> {
         let same = |a: &MeasuredValue, b: &MeasuredValue| (&a.effect, &a.key) == (&b.effect, &b.key);
         let differs = |m: &&MeasuredValue| self.measured.iter().any(|k| same(k, m) && k != *m);
         other.measured.iter().find(differs).map(|m| m.effect.as_str())
     }
 
-    fn contradicts_bending(&self, before: &[Source]) -> bool {
+    fn contradicts_bending(&self, before: &[DiagnosisSource]) -> bool {
         let tested = before.iter().find_map(|known| known.bending_nm2).zip(self.bending_nm2);
         tested.is_some_and(|(known, own)| known != own)
     }

@@ -21,14 +21,14 @@ use models::{Known, Scenario};
 pub(crate) use steps::Ground;
 pub use steps::{ErrorStep, error_steps};
 pub use text::{Addition, BodyValue, today};
-pub(crate) use text::{Origin, extended, origins};
+pub(crate) use text::{EffectOrigin, extended, origins};
 pub use written::{Extension, FittedEffect};
 
 const LEARNED: &str = "learned";
 
 /// The effect to add, as a user types it.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Wish {
+pub enum EffectWish {
     /// Effects that the verdict of the diagnosis adds.
     Best,
     /// The law that is learned from the missing moment where the catalogue has none.
@@ -39,13 +39,13 @@ pub enum Wish {
     Given(String, Values),
 }
 
-impl Wish {
+impl EffectWish {
     /// Reads `best`, `learned`, `NAME`, `without NAME`, `NAME=VALUE` or `NAME:key=value,…`; without data a name alone has its typical values.
     ///
     /// # Errors
     /// An effect that is not possible or is there already; `best` without data.
-    pub fn read(scenario: &Scenario, text: &str, has_data: bool) -> Result<Wish, CompareError> {
-        let of_data = |wish: Wish, what: &str| match has_data {
+    pub fn read(scenario: &Scenario, text: &str, has_data: bool) -> Result<EffectWish, CompareError> {
+        let of_data = |wish: EffectWish, what: &str| match has_data {
             true => Ok(wish),
             false => {
                 let message = format!("`{text}` needs data to {what}");
@@ -53,7 +53,7 @@ impl Wish {
             }
         };
         if text == "best" {
-            return of_data(Wish::Best, "find the best effect");
+            return of_data(EffectWish::Best, "find the best effect");
         }
         if let Some(name) = taken_away(text) {
             let own: Vec<&str> = scenario.effects.iter().map(|e| e.name.as_str()).collect();
@@ -65,15 +65,15 @@ impl Wish {
                 let help = format!("to try it on data: ibr add SCENARIO \"{text}\" DATA");
                 return Err(CompareError::refused(message, help));
             }
-            return Ok(Wish::Fitted(text.into()));
+            return Ok(EffectWish::Fitted(text.into()));
         }
         if text == LEARNED && !scenario.formulas.iter().any(|f| f.name == LEARNED) {
-            return of_data(Wish::Learned, "learn from");
+            return of_data(EffectWish::Learned, "learn from");
         }
         let (name, values) = typed(scenario, text)?;
         Ok(match values {
-            None if has_data => Wish::Fitted(name),
-            values => Wish::Given(name.clone(), values.unwrap_or_else(|| values_of(scenario, &name))),
+            None if has_data => EffectWish::Fitted(name),
+            values => EffectWish::Given(name.clone(), values.unwrap_or_else(|| values_of(scenario, &name))),
         })
     }
 }
@@ -104,21 +104,21 @@ pub fn extend(file: &ScenarioFile, found: &Diagnosis) -> Result<Extension, Compa
 /// As [`diagnose`]; an effect that these data reject; a text that cannot be extended.
 pub fn add(
     file: &ScenarioFile,
-    wish: &Wish,
+    wish: &EffectWish,
     evidence: &[Evidence],
     options: &Options,
     progress: &mut Progress,
 ) -> Result<Extension, CompareError> {
-    if let (Wish::Given(name, values), []) = (wish, evidence) {
+    if let (EffectWish::Given(name, values), []) = (wish, evidence) {
         return assumed(file, name, values);
     }
-    let options = Options { pairs: *wish == Wish::Best, learn: *wish == Wish::Learned, ..options.clone() };
+    let options = Options { pairs: *wish == EffectWish::Best, learn: *wish == EffectWish::Learned, ..options.clone() };
     let found = diagnose(file, evidence, &options, progress)?;
     let mut extension = match wish {
-        Wish::Best => extend(file, &found),
-        Wish::Learned => learned::learned(file, &found),
-        Wish::Fitted(name) => fitted(file, &Ground::new(&found, file), name),
-        Wish::Given(name, values) => {
+        EffectWish::Best => extend(file, &found),
+        EffectWish::Learned => learned::learned(file, &found),
+        EffectWish::Fitted(name) => fitted(file, &Ground::new(&found, file), name),
+        EffectWish::Given(name, values) => {
             let with = with_values(file, name, |wanted| values.iter().find(|(k, _)| k == wanted).map(|(_, v)| *v));
             let after = diagnose(&with, evidence, &options, progress)?;
             given(file, &Ground::new(&found, file), &Ground::new(&after, &with), (name, values))

@@ -58,7 +58,7 @@ pub struct BodyValue {
 
 /// What the text of a scenario records about an effect that was added to it.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Origin {
+pub(crate) struct EffectOrigin {
     pub effect: String,
     /// SHA-256 of the data it was fitted to or judged on.
     pub data_sha256: Vec<String>,
@@ -111,7 +111,7 @@ pub(super) fn with_formula(
     Ok(ScenarioFile { name: file.name.clone(), text, scenario })
 }
 
-pub(crate) fn origins(text: &str) -> Vec<Origin> {
+pub(crate) fn origins(text: &str) -> Vec<EffectOrigin> {
     let document: DocumentMut = text.parse().unwrap_or_default();
     let effects = document.get("effects").and_then(Item::as_table_like).map(|table| table.iter());
     let origin = |(effect, item): (&str, &Item)| {
@@ -119,7 +119,7 @@ pub(crate) fn origins(text: &str) -> Vec<Origin> {
         let note = word("note").strip_prefix(ADDED)?;
         let bending = note.split_once(WITHOUT).and_then(|(_, rest)| rest.split_whitespace().next()?.parse().ok());
         let data_sha256 = hashes(word("data"));
-        Some(Origin { effect: effect.into(), data_sha256, bending_without_nm2: bending })
+        Some(EffectOrigin { effect: effect.into(), data_sha256, bending_without_nm2: bending })
     };
     effects.into_iter().flatten().filter_map(origin).collect()
 }
@@ -268,7 +268,7 @@ mod tests {
             let kept = |line: &str| line.starts_with("bending_stiffness") || new.contains(line);
             assert!(text.lines().all(kept) && new.contains("# from here\n[effects.friction]"), "{new}");
             assert!(new.contains("calibrated; before: 0"), "{new}");
-            let wanted = Origin {
+            let wanted = EffectOrigin {
                 effect: "friction".into(),
                 data_sha256: vec!["ab12".into(), "cd34".into()],
                 bending_without_nm2: Some(0.5),

@@ -3,7 +3,7 @@
 use crate::error::CompareError;
 use crate::evaluate::{EvaluateOptions, Evaluation};
 use crate::evidence::Evidence;
-use crate::extension::{Origin, origins};
+use crate::extension::{EffectOrigin, origins};
 use crate::policy;
 use crate::scenario_file::ScenarioFile;
 use crate::study::comparison::{Contender, compare_all};
@@ -61,7 +61,7 @@ pub struct BeforeAfter {
     pub before: Scenario,
     /// The scenario as written, with the effects.
     pub after: Scenario,
-    origins: Vec<Origin>,
+    origins: Vec<EffectOrigin>,
 }
 
 impl BeforeAfter {
@@ -141,17 +141,18 @@ pub fn validate(file: &ScenarioFile, evidence: &Evidence) -> Result<Validation, 
     BeforeAfter::of(file, &[])?.judge(evidence, None)
 }
 
-fn added(file: &ScenarioFile, named: &[String]) -> Result<Vec<Origin>, CompareError> {
+fn added(file: &ScenarioFile, named: &[String]) -> Result<Vec<EffectOrigin>, CompareError> {
     let has = |name: &str| file.effects.iter().any(|e| e.name == name);
-    let written: Vec<Origin> = origins(&file.text).into_iter().filter(|o| has(&o.effect)).collect();
+    let written: Vec<EffectOrigin> = origins(&file.text).into_iter().filter(|o| has(&o.effect)).collect();
     if let Some(unknown) = named.iter().find(|name| !has(name)) {
         let own: Vec<&str> = file.effects.iter().map(|e| e.name.as_str()).collect();
         let help = format!("{}its effects: {}", spelling::meant(unknown, own.iter().copied()), own.join(", "));
         return Err(CompareError::refused(format!("the scenario has no effect `{unknown}`"), help));
     }
-    let by_hand = |name: &String| Origin { effect: name.clone(), data_sha256: Vec::new(), bending_without_nm2: None };
+    let by_hand =
+        |name: &String| EffectOrigin { effect: name.clone(), data_sha256: Vec::new(), bending_without_nm2: None };
     let of = |name: &String| written.iter().find(|o| o.effect == *name).cloned().unwrap_or_else(|| by_hand(name));
-    let found: Vec<Origin> = if named.is_empty() { written.clone() } else { named.iter().map(of).collect() };
+    let found: Vec<EffectOrigin> = if named.is_empty() { written.clone() } else { named.iter().map(of).collect() };
     if found.is_empty() {
         let message = "no effect of this scenario was written by `ibr add`, so its earlier state is unknown";
         return Err(CompareError::refused(message, "name the effect to judge with --without EFFECT"));

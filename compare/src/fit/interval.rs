@@ -27,7 +27,7 @@
 //! misses, because that sum's rise is then no measure of it.
 
 use super::basis::own_part;
-use super::least_squares::{Range, Residuals, minimise, square};
+use super::least_squares::{FitRange, Residuals, minimise, square};
 use crate::noise::NoiseModel;
 use crate::policy;
 use data::Dataset;
@@ -56,7 +56,7 @@ pub(crate) struct FittedData<'a> {
 
 /// Half-width of a confidence interval, and whether misfit widened it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Half {
+pub(crate) struct HalfWidth {
     pub width: f64,
     /// What the law misses by is in it.
     pub misses: bool,
@@ -64,7 +64,7 @@ pub(crate) struct Half {
 
 /// Half of the interval of a parameter; `None` if the noise is unknown. `white` are its weights on values whitened with noise and
 /// misfit: the values of all data one after the other, then the separately measured ones.
-pub(crate) fn half_width(data: &[FittedData], white: &[f64], parameters: usize) -> Option<Half> {
+pub(crate) fn half_width(data: &[FittedData], white: &[f64], parameters: usize) -> Option<HalfWidth> {
     let (mut total, mut squares_over_dof, mut from) = (0.0, 0.0, 0);
     let (mut each, mut cells, mut pressures) = (0.0, 0, Vec::new());
     for part in data {
@@ -109,7 +109,7 @@ pub(crate) fn half_width(data: &[FittedData], white: &[f64], parameters: usize) 
     squares_over_dof += misfit * misfit / dof;
     let dof = total * total / squares_over_dof;
     let t = StudentsT::new(0.0, 1.0, dof.clamp(1.0, MOST_DOF)).ok()?.inverse_cdf(0.975);
-    Some(Half { width: t * total.sqrt(), misses: !pressures.is_empty() })
+    Some(HalfWidth { width: t * total.sqrt(), misses: !pressures.is_empty() })
 }
 
 impl FittedData<'_> {
@@ -154,7 +154,7 @@ pub(crate) fn misfit(pressures: &[[f64; 2]], (each, cells): (f64, usize), parame
 /// The interval of a parameter: `squares` is the least sum of squares' second derivative by half, `rise` how far this sum rises above
 /// its value at the fit when the parameter is held at a place; without `rise` the interval is linear.
 pub(crate) fn interval(
-    (value, half, squares): (f64, Half, f64),
+    (value, half, squares): (f64, HalfWidth, f64),
     [lower, upper]: [f64; 2],
     rise: Option<&mut dyn FnMut(f64) -> f64>,
 ) -> [f64; 2] {
@@ -183,8 +183,8 @@ pub(crate) fn weights(jacobian: &[Vec<f64>], k: usize) -> Option<(Vec<f64>, f64)
 pub(crate) fn of_parameter(
     k: usize,
     at: &[f64],
-    ranges: &[Range],
-    (half, squares): (Half, f64),
+    ranges: &[FitRange],
+    (half, squares): (HalfWidth, f64),
     residuals: Option<&mut Residuals>,
 ) -> Option<[f64; 2]> {
     let (linear, bounds) = ((at[k], half, squares), [ranges[k].lower, ranges[k].upper]);
@@ -192,7 +192,7 @@ pub(crate) fn of_parameter(
     let least = square(&residuals(at)?);
     let (mut theta, mut held) = (at.to_vec(), ranges.to_vec());
     let mut rise = |x: f64| {
-        (held[k], theta[k]) = (Range::fixed(x, held[k].scale), x);
+        (held[k], theta[k]) = (FitRange::fixed(x, held[k].scale), x);
         minimise(&theta, &held, ENOUGH, residuals).map_or(f64::INFINITY, |found| found.cost - least)
     };
     Some(interval(linear, bounds, Some(&mut rise)))
@@ -248,7 +248,7 @@ mod tests {
     fn the_profile_is_followed_from_three_tenths_of_the_value() {
         let mut asked = 0;
         for width in [2.9, 3.1] {
-            let half = Half { width, misses: false };
+            let half = HalfWidth { width, misses: false };
             interval(
                 (10.0, half, 4.0),
                 [0.0, 90.0],
@@ -263,14 +263,14 @@ mod tests {
 
     #[test]
     fn near_a_bound_or_where_it_is_wide_the_profile_is_followed() {
-        let half = |width: f64| Half { width, misses: false };
+        let half = |width: f64| HalfWidth { width, misses: false };
         let linear = interval((5.0, half(1.0), 4.0), [0.0, 9.0], Some(&mut |_| unreachable!()));
         assert_eq!(linear, [4.0, 6.0]);
         let mut cube = |x: f64| 4.0 * (x - 1.0).powi(2) * x;
         let [low, high] = interval((1.0, half(1.0), 4.0), [0.0, 9.0], Some(&mut cube));
         assert!(low == 0.0 && (cube(high) / 4.0 - 1.0).abs() < 0.01, "{low} {high}");
         assert_eq!(interval((1.0, half(2.0), 4.0), [0.0, 9.0], None), [0.0, 3.0]);
-        let misses = Half { width: 2.0, misses: true };
+        let misses = HalfWidth { width: 2.0, misses: true };
         assert_eq!(interval((1.0, misses, 4.0), [0.0, 9.0], Some(&mut cube)), [0.0, 3.0]);
     }
 }

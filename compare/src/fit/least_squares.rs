@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector};
 
 /// Range and natural step of one coordinate.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Range {
+pub(crate) struct FitRange {
     pub lower: f64,
     pub upper: f64,
     /// A change of this size matters.
@@ -34,14 +34,14 @@ impl Minimum {
     }
 }
 
-impl Range {
+impl FitRange {
     /// A range without bounds, for a parameter of this typical size.
-    pub(crate) fn endless(scale: f64) -> Range {
-        Range { lower: f64::NEG_INFINITY, upper: f64::INFINITY, scale }
+    pub(crate) fn endless(scale: f64) -> FitRange {
+        FitRange { lower: f64::NEG_INFINITY, upper: f64::INFINITY, scale }
     }
 
-    pub(crate) fn fixed(at: f64, scale: f64) -> Range {
-        Range { lower: at, upper: at, scale }
+    pub(crate) fn fixed(at: f64, scale: f64) -> FitRange {
+        FitRange { lower: at, upper: at, scale }
     }
 
     pub(crate) fn is_free(&self) -> bool {
@@ -65,13 +65,13 @@ pub(crate) type Slopes<'a> = dyn FnMut(&Minimum, &mut Residuals) -> Vec<Vec<f64>
 
 /// Minimises the sum of squares from `start` until a round lowers it by less than `enough`; `None` if the residuals do
 /// not exist there.
-pub(crate) fn minimise(start: &[f64], ranges: &[Range], enough: f64, residuals: &mut Residuals) -> Option<Minimum> {
+pub(crate) fn minimise(start: &[f64], ranges: &[FitRange], enough: f64, residuals: &mut Residuals) -> Option<Minimum> {
     minimise_by(start, ranges, enough, residuals, &mut |at, residuals| jacobian(at, ranges, residuals))
 }
 
 pub(crate) fn minimise_by(
     start: &[f64],
-    ranges: &[Range],
+    ranges: &[FitRange],
     enough: f64,
     residuals: &mut Residuals,
     slopes: &mut Slopes,
@@ -95,7 +95,7 @@ pub(crate) fn minimise_by(
 }
 
 /// One accepted step, without its Jacobian; `None` if there is none.
-fn improve(from: &Minimum, ranges: &[Range], damping: &mut f64, residuals: &mut Residuals) -> Option<Minimum> {
+fn improve(from: &Minimum, ranges: &[FitRange], damping: &mut f64, residuals: &mut Residuals) -> Option<Minimum> {
     let gradient: Vec<f64> = from.jacobian.iter().map(|column| dot(column, &from.residual)).collect();
     let free: Vec<usize> = (0..ranges.len()).filter(|&k| !is_held(from.at[k], &ranges[k], gradient[k])).collect();
     if free.is_empty() {
@@ -128,7 +128,7 @@ fn damped_step(
     squares: &DMatrix<f64>,
     free: &[usize],
     gradient: &[f64],
-    ranges: &[Range],
+    ranges: &[FitRange],
     damping: f64,
 ) -> DVector<f64> {
     let n = free.len();
@@ -142,18 +142,18 @@ fn damped_step(
     matrix.cholesky().map_or_else(|| DVector::zeros(n), |c| c.solve(&right))
 }
 
-fn tiny(step: &DVector<f64>, free: &[usize], ranges: &[Range]) -> bool {
+fn tiny(step: &DVector<f64>, free: &[usize], ranges: &[FitRange]) -> bool {
     step.iter().zip(free).all(|(d, k)| d.abs() < 1e-9 * ranges[*k].scale)
 }
 
 /// On a bound, and downhill leads out.
-fn is_held(x: f64, range: &Range, gradient: f64) -> bool {
+fn is_held(x: f64, range: &FitRange, gradient: f64) -> bool {
     (x <= range.lower && gradient >= 0.0) || (x >= range.upper && gradient <= 0.0)
 }
 
 /// One-sided differences, inwards at the upper bound; a column is zero where the residuals do not exist, and for a
 /// coordinate whose range is one value.
-pub(crate) fn jacobian(at: &Minimum, ranges: &[Range], residuals: &mut Residuals) -> Vec<Vec<f64>> {
+pub(crate) fn jacobian(at: &Minimum, ranges: &[FitRange], residuals: &mut Residuals) -> Vec<Vec<f64>> {
     let mut moved = at.at.clone();
     let mut columns = Vec::with_capacity(ranges.len());
     for (k, range) in ranges.iter().enumerate() {
@@ -198,8 +198,8 @@ pub(crate) fn square(a: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    fn range(lower: f64, upper: f64) -> Range {
-        Range { lower, upper, scale: 1.0 }
+    fn range(lower: f64, upper: f64) -> FitRange {
+        FitRange { lower, upper, scale: 1.0 }
     }
 
     #[test]

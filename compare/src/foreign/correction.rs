@@ -14,7 +14,7 @@ const STEPS: usize = 30;
 
 /// Displacements Δ = M(θ, B) − M₀ of the markers, which are added to another simulator's predictions.
 #[derive(Debug, Clone)]
-pub struct Correction {
+pub struct ForeignCorrection {
     /// Effects, best first.
     pub effects: Vec<String>,
     /// Names and SHA-256 of the data of the fit.
@@ -27,12 +27,16 @@ pub struct Correction {
     dataset: Dataset,
 }
 
-impl Correction {
+impl ForeignCorrection {
     /// Of a scenario and what was added to it on data with a base.
     ///
     /// # Errors
     /// Data without a base; a robot with several actuator pressures.
-    pub fn of(scenario: &Scenario, found: &Extension, evidence: &[Evidence]) -> Result<Correction, CompareError> {
+    pub fn of(
+        scenario: &Scenario,
+        found: &Extension,
+        evidence: &[Evidence],
+    ) -> Result<ForeignCorrection, CompareError> {
         let Some(first) = evidence.first().filter(|first| first.base.is_some()) else {
             let message = "a correction is for the predictions of another simulator, and none were given";
             return Err(CompareError::refused(message, "name their table with --base, or give --out a name of .toml"));
@@ -44,7 +48,7 @@ impl Correction {
         }
         let fitted = |of: &Scenario| fit_scenario(of, dataset, first.about.as_ref()).map(|(fitted, _)| fitted);
         let hash = |one: &Evidence| Ok([one.dataset.name.clone(), one.sha256()?]);
-        Ok(Correction {
+        Ok(ForeignCorrection {
             effects: found.additions.iter().map(|a| a.name.clone()).collect(),
             fitted_on: evidence.iter().map(hash).collect::<Result<_, CompareError>>()?,
             before: fitted(scenario)?,
@@ -76,7 +80,7 @@ impl Correction {
     /// The table: from 0 to the highest pressure of the data at each of their body pressures, and back if loading and unloading differ.
     ///
     /// # Errors
-    /// As [`Correction::at`].
+    /// As [`ForeignCorrection::at`].
     pub fn table(&self) -> Result<Table, CompareError> {
         let holds = &self.dataset.holds;
         let most = holds.iter().map(|hold| hold.p_act_pa).fold(0.0, f64::max);
@@ -113,7 +117,7 @@ impl Correction {
     /// The table as a CSV file: comments with the effects and the data of the fit, then columns.
     ///
     /// # Errors
-    /// As [`Correction::at`].
+    /// As [`ForeignCorrection::at`].
     pub fn text(&self) -> Result<String, CompareError> {
         let mut text = "# correction: add dx_mm and dy_mm to the predictions of every marker\n".to_string();
         text += &format!("# effects: {}\n", self.effects.join(", "));

@@ -12,7 +12,7 @@ mod judged;
 #[cfg(test)]
 mod tests;
 
-pub use correction::Correction;
+pub use correction::ForeignCorrection;
 pub use judged::judge;
 
 use crate::error::CompareError;
@@ -74,7 +74,7 @@ fn text_of(file: &str, help: &str) -> Result<String, CompareError> {
     String::from_utf8(bytes).map_err(|_| unread("it is not a text in UTF-8".into()))
 }
 
-/// Reads a correction that [`Correction::text`] wrote.
+/// Reads a correction that [`ForeignCorrection::text`] wrote.
 ///
 /// # Errors
 /// A file that cannot be read, or has no such table.

@@ -1,6 +1,6 @@
 //! The program's own model in the part of another simulator: its predictions without an effect, on data generated with it.
 
-use super::{BaseTable, Correction, judge, on_base};
+use super::{BaseTable, ForeignCorrection, judge, on_base};
 use crate::diagnosis::{Diagnosis, Options, Verdict, diagnose};
 use crate::error::CompareError;
 use crate::evidence::Evidence;
@@ -80,7 +80,7 @@ fn trial(foreign: &Scenario, own: &ScenarioFile, truth: &Scenario, name: &str, s
         return (false, None);
     }
     let extension = crate::extend(own, &d).unwrap();
-    let text = Correction::of(own, &extension, &on).unwrap().text().unwrap();
+    let text = ForeignCorrection::of(own, &extension, &on).unwrap().text().unwrap();
     let correction = parse_correction("correction.csv", &text).unwrap();
     let other = measured(truth, seed + 50, &BETWEEN);
     let judged = judge(&correction, &of(&other), &other, None).unwrap();

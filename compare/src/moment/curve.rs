@@ -8,7 +8,7 @@ const STRETCHES: usize = 24;
 
 /// Pressures that an explanation is followed through.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Path {
+pub(crate) struct PressurePath {
     pub p_body_pa: f64,
     /// Actuator pressures on the way up or down \[Pa\].
     pub p_act_pa: Vec<f64>,
@@ -22,7 +22,7 @@ pub(crate) struct Path {
 pub(crate) type CurvePoint = [f64; 2];
 
 /// What the base misses at the bends of another robot, at every pressure of a path.
-pub(crate) fn curve(base: &Scenario, other: &Scenario, path: &Path) -> Result<Vec<CurvePoint>, CompareError> {
+pub(crate) fn curve(base: &Scenario, other: &Scenario, path: &PressurePath) -> Result<Vec<CurvePoint>, CompareError> {
     let cuts: Vec<f64> = (1..STRETCHES).map(|i| base.length_m * i as f64 / STRETCHES as f64).collect();
     let [base, other] = [base, other].map(|scenario| Model::in_pieces(scenario, &cuts));
     let (mut of_base, mut of_other) = (base.prediction(), other.prediction());
@@ -58,7 +58,7 @@ pub(crate) fn at_turn(base: &Scenario, loads: &Loads, turn_rad: f64) -> Option<C
 }
 
 /// The pressure from where it is reached, and after the time that it is held.
-fn steps(path: &Path, p_act_pa: f64) -> Vec<Step> {
+fn steps(path: &PressurePath, p_act_pa: f64) -> Vec<Step> {
     let step = |t_s: f64, p: f64| Step { t_s, loads: Loads::uniform(path.p_body_pa, p) };
     match path.from_pa {
         None => vec![step(0.0, p_act_pa), step(path.wait_s, p_act_pa)],

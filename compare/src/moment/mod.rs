@@ -16,8 +16,8 @@ mod tests;
 mod told;
 mod view;
 
-pub(crate) use curve::{CurvePoint, Path, at_turn, band, curve};
-pub(crate) use points::{Moments, Robot, missing, moments};
+pub(crate) use curve::{CurvePoint, PressurePath, at_turn, band, curve};
+pub(crate) use points::{Moments, RobotScenarios, missing, moments};
 pub use result::{MeasuredShape, MissingMoment, MomentCurve, MomentPoint, SharedNumber};
 pub(crate) use shape::{Shape, shape};
 pub(crate) use told::{degrees, sentences, shape_sentences};

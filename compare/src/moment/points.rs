@@ -7,7 +7,7 @@
 //! Positive: something is missing that bends the robot further; negative: something holds it back; zero: nothing is missing.
 
 use super::result::MomentPoint;
-use super::shape::{Layout, Shape};
+use super::shape::{Shape, ShapeLayout};
 use super::told::degrees;
 use super::view::{Pieces, View};
 use crate::error::CompareError;
@@ -17,7 +17,7 @@ use nalgebra::{DMatrix, RowDVector};
 
 /// Scenarios of a model, one per bending stiffness, and which of them holds in which hold.
 #[derive(Clone, Copy)]
-pub(crate) struct Robot<'a> {
+pub(crate) struct RobotScenarios<'a> {
     pub scenarios: &'a [Scenario],
     /// Index of the scenario that applies in each hold.
     pub of_hold: &'a [usize],
@@ -43,9 +43,9 @@ const COMPLETE: f64 = 3.0;
 /// A weighted sum over (moment, place).
 type Sum = Vec<(f64, usize, usize)>;
 
-pub(crate) fn moments(view: &View, shape: &Shape, robot: &Robot) -> Result<Moments, CompareError> {
-    let field = Field::of(view, shape, robot)?;
-    let layout = Layout::of(&shape.division);
+pub(crate) fn moments(view: &View, shape: &Shape, robot: &RobotScenarios) -> Result<Moments, CompareError> {
+    let field = MomentField::of(view, shape, robot)?;
+    let layout = ShapeLayout::of(&shape.division);
     let (mut sums, mut labels, mut wholes) = (Vec::new(), Vec::new(), Vec::new());
     let groups = shape.division.groups;
     for hold in 0..view.dataset.holds.len() {
@@ -109,14 +109,14 @@ pub(crate) fn moments(view: &View, shape: &Shape, robot: &Robot) -> Result<Momen
 }
 
 /// Bend, missing moment and its slope by bend, moment after moment and place after place.
-struct Field {
+struct MomentField {
     kappa: Vec<Vec<f64>>,
     missing: Vec<Vec<f64>>,
     slope: Vec<Vec<f64>>,
 }
 
-impl Field {
-    fn of(view: &View, shape: &Shape, robot: &Robot) -> Result<Field, CompareError> {
+impl MomentField {
+    fn of(view: &View, shape: &Shape, robot: &RobotScenarios) -> Result<MomentField, CompareError> {
         let kappa = shape.bends();
         let moved =
             |by: f64| -> Vec<Vec<f64>> { kappa.iter().map(|row| row.iter().map(|k| k + by).collect()).collect() };
@@ -126,10 +126,10 @@ impl Field {
             .iter()
             .zip(&high)
             .map(|(low, high)| low.iter().zip(high).map(|(low, high)| (high - low) / (2.0 * STEP)).collect());
-        Ok(Field { slope: slope.collect(), kappa, missing })
+        Ok(MomentField { slope: slope.collect(), kappa, missing })
     }
 
-    fn usable(&self, view: &View, shape: &Shape, layout: &Layout, hold: usize) -> Vec<usize> {
+    fn usable(&self, view: &View, shape: &Shape, layout: &ShapeLayout, hold: usize) -> Vec<usize> {
         let groups = shape.division.groups;
         let mut active: Vec<usize> = (0..shape.division.places.len()).collect();
         active.retain(|p| shape.division.places[*p].is_active);
@@ -160,7 +160,7 @@ impl Field {
     }
 
     /// Derivative of a sum by the numbers of the shape: of moments, or of bends.
-    fn gradient(&self, sum: &Sum, shape: &Shape, layout: &Layout, moments: bool) -> RowDVector<f64> {
+    fn gradient(&self, sum: &Sum, shape: &Shape, layout: &ShapeLayout, moments: bool) -> RowDVector<f64> {
         let mut row = RowDVector::zeros(shape.numbers.len());
         for (weight, m, place) in sum {
             let at = shape.division.moments[*m];
@@ -172,7 +172,7 @@ impl Field {
     }
 
     /// Standard deviations of bend and moment, and their correlation: of the covariance of the shape's numbers, shared ones too.
-    fn errors(&self, sum: &Sum, shape: &Shape, layout: &Layout) -> [f64; 3] {
+    fn errors(&self, sum: &Sum, shape: &Shape, layout: &ShapeLayout) -> [f64; 3] {
         let [bend, moment] = [false, true].map(|moments| self.gradient(sum, shape, layout, moments));
         let covariance = |a: &RowDVector<f64>, b: &RowDVector<f64>| (a * &shape.covariance * b.transpose())[(0, 0)];
         let [bend_sd, moment_sd] = [&bend, &moment].map(|row| covariance(row, row).max(0.0).sqrt());
@@ -186,7 +186,7 @@ impl Field {
 pub(crate) fn missing(
     view: &View,
     shape: &Shape,
-    robot: &Robot,
+    robot: &RobotScenarios,
     bends: &[Vec<f64>],
 ) -> Result<Vec<Vec<f64>>, CompareError> {
     let steps = shape.division.steps(view.dataset);

@@ -10,9 +10,9 @@
 //! bends (a marker's height is the same number), and the camera's scale and roll. Each is held near nothing by a wide prior.
 
 use super::result::SharedNumber;
-use super::view::{Division, Moment, Pieces, View};
+use super::view::{Division, HoldMoment, Pieces, View};
 use crate::error::CompareError;
-use crate::fit::least_squares::{Range, minimise_by, products, square};
+use crate::fit::least_squares::{FitRange, minimise_by, products, square};
 use crate::fit::numbers::differences;
 use models::{Prediction, Scenario, Step};
 use nalgebra::DMatrix;
@@ -22,7 +22,7 @@ use nalgebra::DMatrix;
 pub struct Shape {
     /// Parts with a separate bend each.
     pub division: Division,
-    /// Bends, drifts and shared numbers, in that order: see `Layout`.
+    /// Bends, drifts and shared numbers, in that order: see `ShapeLayout`.
     pub numbers: Vec<f64>,
     pub covariance: DMatrix<f64>,
     pub shared: Vec<SharedNumber>,
@@ -33,23 +33,23 @@ pub struct Shape {
 impl Shape {
     /// Bends of all places, moment after moment \[1/m\].
     pub fn bends(&self) -> Vec<Vec<f64>> {
-        let layout = Layout::of(&self.division);
+        let layout = ShapeLayout::of(&self.division);
         self.division.moments.iter().map(|m| bends(&layout, &self.numbers, m.hold, m.group)).collect()
     }
 }
 
 /// Index of each number of a shape.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Layout {
+pub(super) struct ShapeLayout {
     holds: usize,
     places: usize,
     groups: usize,
 }
 
-impl Layout {
-    pub(super) fn of(division: &Division) -> Layout {
+impl ShapeLayout {
+    pub(super) fn of(division: &Division) -> ShapeLayout {
         let groups = division.groups;
-        Layout { holds: division.moments.len() / groups, places: division.places.len(), groups }
+        ShapeLayout { holds: division.moments.len() / groups, places: division.places.len(), groups }
     }
 
     /// Bend of a hold at a place.
@@ -100,12 +100,12 @@ pub(crate) fn shape(view: &View) -> Result<Shape, CompareError> {
     let start = start(view, &uniform);
     let most = start.iter().fold(0.0_f64, |most, bend| most.max(bend.abs()));
     let division = Division::of(view, most);
-    let layout = Layout::of(&division);
+    let layout = ShapeLayout::of(&division);
     let mut numbers = vec![0.0; layout.shared() + shared_count(view)];
     for (hold, bend) in start.iter().enumerate() {
         (0..division.places.len()).for_each(|place| numbers[layout.bend(hold, place)] = *bend);
     }
-    Fit { view, layout, steps: division.steps(view.dataset), division: &division }.from(&numbers)
+    ShapeFit { view, layout, steps: division.steps(view.dataset), division: &division }.from(&numbers)
 }
 
 /// The camera's numbers are settled where its frame was measured.
@@ -135,16 +135,16 @@ fn start(view: &View, uniform: &Division) -> Vec<f64> {
     best.into_iter().map(|(_, bend)| bend).collect()
 }
 
-struct Fit<'a> {
+struct ShapeFit<'a> {
     view: &'a View<'a>,
     division: &'a Division,
-    layout: Layout,
+    layout: ShapeLayout,
     steps: Vec<Step>,
 }
 
-impl Fit<'_> {
+impl ShapeFit<'_> {
     fn from(&self, start: &[f64]) -> Result<Shape, CompareError> {
-        let ranges: Vec<Range> = (0..start.len()).map(|k| Range::endless(self.prior(k))).collect();
+        let ranges: Vec<FitRange> = (0..start.len()).map(|k| FitRange::endless(self.prior(k))).collect();
         let mut residuals = |numbers: &[f64]| Some(self.residuals(numbers)).filter(|r| r.iter().all(|v| v.is_finite()));
         let found = minimise_by(start, &ranges, ENOUGH, &mut residuals, &mut |at, _| self.jacobian(&at.at))
             .ok_or_else(|| no_shape("its positions are not finite"))?;
@@ -197,7 +197,7 @@ impl Fit<'_> {
         let mut state = pieces.model.prediction();
         let samples = self.view.dataset.samples_per_hold;
         let mut out = Vec::with_capacity(self.view.target_m.len());
-        let mut positions = |(moment, step): (&Moment, &Step)| {
+        let mut positions = |(moment, step): (&HoldMoment, &Step)| {
             let mut bends = bends(&self.layout, numbers, moment.hold, moment.group);
             moved.iter().for_each(|place| bends[*place] += STEP);
             pieces.model.bend(&step.loads, &pieces.curvatures(&bends), &mut state);
@@ -248,7 +248,7 @@ impl Fit<'_> {
     }
 }
 
-pub(super) fn bends(layout: &Layout, numbers: &[f64], hold: usize, group: usize) -> Vec<f64> {
+pub(super) fn bends(layout: &ShapeLayout, numbers: &[f64], hold: usize, group: usize) -> Vec<f64> {
     let drift: f64 = layout.drifts(hold, group).iter().map(|(k, sign)| sign * numbers[*k]).sum();
     (0..layout.places).map(|place| numbers[layout.bend(hold, place)] + drift).collect()
 }

@@ -26,7 +26,8 @@ fn seen(model: &Scenario, data: &Dataset, noise: &Generator) -> (Shape, Moments)
         View { scenario: model, dataset: data, direct: Direct::default(), target_m: &target_m, whitener: &whitener };
     let shape = shape(&view).unwrap();
     let of_hold = vec![0; data.holds.len()];
-    let told = moments(&view, &shape, &Robot { scenarios: std::slice::from_ref(model), of_hold: &of_hold }).unwrap();
+    let told =
+        moments(&view, &shape, &RobotScenarios { scenarios: std::slice::from_ref(model), of_hold: &of_hold }).unwrap();
     (shape, told)
 }
 

@@ -40,7 +40,7 @@ impl Place {
 
 /// Samples of one hold that are taken together.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Moment {
+pub struct HoldMoment {
     pub hold: usize,
     /// Which of the hold's groups, in time.
     pub group: usize,
@@ -54,7 +54,7 @@ pub struct Division {
     /// Groups of samples in each hold.
     pub groups: usize,
     /// Groups of samples, hold after hold.
-    pub moments: Vec<Moment>,
+    pub moments: Vec<HoldMoment>,
 }
 
 /// Groups of samples in a hold; more show no more of a creep.
@@ -98,7 +98,7 @@ impl Division {
         let samples = view.dataset.samples_per_hold;
         let moment = |hold: usize, group: usize| {
             let own = (0..samples).filter(|t| t * groups / samples == group);
-            Moment { hold, group, t_s: mean(own.map(|t| view.dataset.holds[hold].t_s[t])) }
+            HoldMoment { hold, group, t_s: mean(own.map(|t| view.dataset.holds[hold].t_s[t])) }
         };
         Division {
             places: ends.windows(2).map(place).collect(),
@@ -117,7 +117,7 @@ impl Division {
 
     /// The protocol, one step per group of samples.
     pub fn steps(&self, dataset: &Dataset) -> Vec<Step> {
-        let step = |m: &Moment| {
+        let step = |m: &HoldMoment| {
             let hold = &dataset.holds[m.hold];
             Step { t_s: m.t_s, loads: Loads::uniform(hold.p_body_pa, hold.p_act_pa) }
         };

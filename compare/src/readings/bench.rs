@@ -19,7 +19,7 @@ use models::Known;
 
 /// A bench table compared with the model's values, row by row.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Held {
+pub struct ComparedBench {
     /// Which table is compared with which model.
     pub title: String,
     /// Name of the measured quantity, with its unit.
@@ -66,7 +66,7 @@ impl HeldRow {
     }
 }
 
-impl Held {
+impl ComparedBench {
     /// Root mean square of the shares by which the model is off, of rows it was not fitted to.
     pub fn rms(&self) -> Option<f64> {
         let all: Vec<f64> = self.rows.iter().filter(|r| !r.fitted).filter_map(HeldRow::off).collect();
@@ -79,7 +79,7 @@ impl Held {
 ///
 /// # Errors
 /// A kind without a model, or a scenario that is missing.
-pub fn held(bench: &Bench, scenario: Option<&Scenario>, calibrate: bool) -> Result<Held, CompareError> {
+pub fn held(bench: &Bench, scenario: Option<&Scenario>, calibrate: bool) -> Result<ComparedBench, CompareError> {
     let beam = is_beam(bench)?;
     let scenario = own_or_braid(bench, scenario)?;
     let of_one_specimen: &[&str] = if beam { &["p_body", "radius"] } else { &["muscle"] };
@@ -115,7 +115,7 @@ pub fn held(bench: &Bench, scenario: Option<&Scenario>, calibrate: bool) -> Resu
         _ => Known::Calibrated,
     };
     let title = format!("{what}, {} against {}", scenario.name, bench.file);
-    Ok(Held { title, quantity: quantity.into(), known, rows, notes })
+    Ok(ComparedBench { title, quantity: quantity.into(), known, rows, notes })
 }
 
 /// Whether the table is one of beams; else it is one of muscles.

@@ -34,7 +34,7 @@ use models::{Moment, Scenario, Supply};
 use std::collections::BTreeSet;
 
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Reading {
+pub(crate) struct GaugeReading {
     /// Hold of the positions that belong to it ([`Gauge::positions`]).
     pub hold: usize,
     pub set_pa: f64,
@@ -46,7 +46,7 @@ pub(crate) struct Reading {
 #[derive(Debug, Clone)]
 pub(crate) struct Gauge {
     /// Readings at set pressures above zero.
-    pub readings: Vec<Reading>,
+    pub readings: Vec<GaugeReading>,
     /// The scenario as given, with its own supply effects.
     pub scenario: Scenario,
     /// The holds as they were set.
@@ -109,7 +109,7 @@ impl Gauge {
             |h: usize| policy::runs_down((mean[h * samples] - mean[(h + 1) * samples - 1]) / (2_f64.sqrt() * sd_pa));
         let split = samples > 1 && holds().any(|(h, _)| runs_down(h));
         let held = held(&dataset.holds);
-        let reading = |i: usize| Reading {
+        let reading = |i: usize| GaugeReading {
             hold: if split { i } else { i / samples },
             set_pa: held[i].0,
             at: held[i].1,
@@ -144,7 +144,7 @@ impl Gauge {
         read
     }
 
-    fn of_hold(&self, hold: usize) -> impl Iterator<Item = &Reading> {
+    fn of_hold(&self, hold: usize) -> impl Iterator<Item = &GaugeReading> {
         self.readings.iter().filter(move |r| r.hold == hold)
     }
 
@@ -180,7 +180,7 @@ impl Gauge {
     }
 
     pub(crate) fn whitener(&self) -> Result<Whitener, CompareError> {
-        let column = |of: &dyn Fn(&Reading) -> f64| self.readings.iter().map(of).collect::<Vec<f64>>();
+        let column = |of: &dyn Fn(&GaugeReading) -> f64| self.readings.iter().map(of).collect::<Vec<f64>>();
         let columns = [
             column(&|r| self.run_sd * r.set_pa),
             column(&|r| policy::SENSOR_SD[0] * r.read_pa),

@@ -51,7 +51,7 @@ pub struct HoldNoise {
     /// Errors last through a hold: readings scatter more than their samples say.
     pub lasts: bool,
     /// Z of every kind: hold, and its values in run layout.
-    pub columns: Vec<Column>,
+    pub columns: Vec<ErrorDirection>,
 }
 
 impl HoldNoise {
@@ -61,20 +61,20 @@ impl HoldNoise {
     }
 
     /// Columns and their standard deviations in a mean over `runs`, for tests.
-    pub fn of_mean(&self, runs: usize) -> impl Iterator<Item = (&Column, f64)> {
-        let sd = move |column: &Column| (self.test_variance[column.kind] / runs as f64).sqrt();
+    pub fn of_mean(&self, runs: usize) -> impl Iterator<Item = (&ErrorDirection, f64)> {
+        let sd = move |column: &ErrorDirection| (self.test_variance[column.kind] / runs as f64).sqrt();
         self.columns.iter().map(move |column| (column, sd(column)))
     }
 
     /// Variance that the columns give a weighted sum of the mean over `runs`.
     pub fn variance_of_mean(&self, weights: &[(usize, f64)], variance: &[f64; KINDS], runs: usize) -> f64 {
-        let of = |c: &Column| variance[c.kind] * c.along(weights.iter().copied()).powi(2);
+        let of = |c: &ErrorDirection| variance[c.kind] * c.along(weights.iter().copied()).powi(2);
         self.columns.iter().map(of).sum::<f64>() / runs as f64
     }
 
     /// Sum of the variances that the columns give the values of a range in the mean over `runs` \[m²\], best estimate.
     pub fn square_of_mean(&self, range: &std::ops::Range<usize>, runs: usize) -> f64 {
-        let inside = |c: &Column| {
+        let inside = |c: &ErrorDirection| {
             let values = c.values.iter().enumerate().filter(|(i, _)| range.contains(&(c.from + i)));
             self.variance()[c.kind] * values.map(|(_, v)| v * v).sum::<f64>()
         };
@@ -99,7 +99,7 @@ impl HoldNoise {
 
 /// A direction in which a hold errs.
 #[derive(Debug, Clone)]
-pub struct Column {
+pub struct ErrorDirection {
     /// Kind of the error, an index into `HoldNoise::sd`.
     pub kind: usize,
     /// Place of the column's first value in run layout.
@@ -108,7 +108,7 @@ pub struct Column {
     pub values: Vec<f64>,
 }
 
-impl Column {
+impl ErrorDirection {
     /// Sum of this column times sparse `weights`, given as places in run layout.
     pub fn along(&self, weights: impl Iterator<Item = (usize, f64)>) -> f64 {
         weights.filter_map(|(i, w)| Some(w * self.values.get(i.checked_sub(self.from)?)?)).sum()
@@ -148,7 +148,7 @@ pub(crate) fn hold_scatter(
 struct Means {
     /// Z, one column per entry of `columns`.
     z: DMatrix<f64>,
-    columns: Vec<Column>,
+    columns: Vec<ErrorDirection>,
     /// Orthonormal basis of the errors of runs.
     q: DMatrix<f64>,
     seen: Vec<bool>,
@@ -177,14 +177,18 @@ impl Means {
                 column[hold * width..(hold + 1) * width].copy_from_slice(part);
                 z.push(DVector::from_vec(column));
                 let values = (0..layout.samples).flat_map(|_| part.iter().copied()).collect();
-                columns.push(Column { kind, from: layout.hold_range(hold).start, values });
+                columns.push(ErrorDirection { kind, from: layout.hold_range(hold).start, values });
             }
         }
         for cell in (0..width).filter(|cell| (0..layout.holds).any(|hold| seen[hold * width + cell])) {
             let is_here = |i: usize| f64::from(u8::from(i % width == cell && seen[i]));
             z.push(DVector::from_fn(mean.len(), |i, _| is_here(i)));
             let of_value = |i: usize| is_here(i / (width * layout.samples) * width + i % width);
-            columns.push(Column { kind: KINDS - 1, from: 0, values: (0..layout.values()).map(of_value).collect() });
+            columns.push(ErrorDirection {
+                kind: KINDS - 1,
+                from: 0,
+                values: (0..layout.values()).map(of_value).collect(),
+            });
         }
         let all = DMatrix::from_fn(mean.len(), u.len(), |i, j| u[j][i]);
         Means { z: DMatrix::from_columns(&z), columns, q: basis(all), seen }

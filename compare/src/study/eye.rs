@@ -73,17 +73,17 @@ impl Default for Generator {
 }
 
 /// A camera and the regulator's error, run by run.
-pub struct Seen<'a> {
+pub struct SimulatedCamera<'a> {
     generator: &'a Generator,
     /// Camera noise from Student's t with 3 degrees of freedom, scaled to the same standard deviation: now and then a marker is seen
     /// far off.
     pub heavy_tails: bool,
     holds: usize,
-    scatter: Scatter,
+    scatter: NormalNumbers,
     shift: [f64; 2],
     roll: f64,
     /// Draws of single holds, samples seen, and what lasts through the hold: shift, roll, and errors of the markers.
-    of_holds: Scatter,
+    of_holds: NormalNumbers,
     seen: usize,
     held_shift: [f64; 3],
     held_roll: f64,
@@ -92,17 +92,17 @@ pub struct Seen<'a> {
     tilt: [f64; 3],
 }
 
-impl<'a> Seen<'a> {
+impl<'a> SimulatedCamera<'a> {
     /// A camera for runs of so many holds.
-    pub fn new(generator: &'a Generator, holds: usize) -> Seen<'a> {
-        Seen {
+    pub fn new(generator: &'a Generator, holds: usize) -> SimulatedCamera<'a> {
+        SimulatedCamera {
             generator,
             heavy_tails: false,
             holds,
-            scatter: Scatter::new(generator.seed),
+            scatter: NormalNumbers::new(generator.seed),
             shift: [0.0; 2],
             roll: 0.0,
-            of_holds: Scatter::new(generator.seed ^ 0x401D),
+            of_holds: NormalNumbers::new(generator.seed ^ 0x401D),
             seen: 0,
             held_shift: [0.0; 3],
             held_roll: 0.0,
@@ -168,7 +168,7 @@ impl<'a> Seen<'a> {
 }
 
 /// Standard normal numbers by the polar method, from a generator whose stream is fixed by its definition.
-pub struct Scatter {
+pub struct NormalNumbers {
     rng: ChaCha8Rng,
     spare: Option<f64>,
 }
@@ -176,7 +176,7 @@ pub struct Scatter {
 /// Degrees of freedom of heavy-tailed noise: the least with a variance.
 const HEAVY_DOF: usize = 3;
 
-impl Scatter {
+impl NormalNumbers {
     /// A random number of mean 0 and variance 1.
     pub(super) fn camera(&mut self, heavy_tails: bool) -> f64 {
         let normal = self.normal();
@@ -189,8 +189,8 @@ impl Scatter {
     }
 
     /// Random numbers that follow from the seed alone.
-    pub fn new(seed: u64) -> Scatter {
-        Scatter { rng: ChaCha8Rng::seed_from_u64(seed), spare: None }
+    pub fn new(seed: u64) -> NormalNumbers {
+        NormalNumbers { rng: ChaCha8Rng::seed_from_u64(seed), spare: None }
     }
 
     /// A uniform random number in [0, 1).

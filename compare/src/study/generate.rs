@@ -4,8 +4,8 @@
 //! three, and an error of every marker that lasts through the hold. Per sample: camera noise. The recorded pressure is the set one, as
 //! a regulator reports it. Seeded: the same call gives the same bytes, and scatter per hold changes no other draw.
 
-use super::eye::Seen;
-pub use super::eye::{Generator, HoldScatter, Scatter};
+use super::eye::SimulatedCamera;
+pub use super::eye::{Generator, HoldScatter, NormalNumbers};
 use crate::error::CompareError;
 use data::{About, Dataset, Direct, Geometry, Hold, Marker, MarkerStation, Phase, Provenance};
 use models::{CHANNELS, Loads, Model, Moment, Prediction, Scenario, Step, Supply};
@@ -93,7 +93,7 @@ pub fn generate(scenario: &Scenario, name: &str, generator: &Generator) -> Resul
     }
     let model = Model::new(scenario);
     let mut state = model.prediction();
-    let mut eye = Seen::new(generator, generator.protocol.len());
+    let mut eye = SimulatedCamera::new(generator, generator.protocol.len());
     let (supply, mut manometer) = (Supply::of(scenario), Manometer::new(generator.seed));
     let (mut coordinates_m, mut gauge_pa) = (Vec::new(), Vec::new());
     for _ in 0..generator.runs {
@@ -153,7 +153,7 @@ pub fn held(holds: &[Hold]) -> Vec<(f64, Moment)> {
 
 /// A small digital gauge: one error of its zero and of its gain, and scatter of every reading.
 pub struct Manometer {
-    scatter: Scatter,
+    scatter: NormalNumbers,
     zero_pa: f64,
     gain: f64,
 }
@@ -165,7 +165,7 @@ impl Manometer {
     /// A gauge whose zero, gain and noise follow from the seed.
     pub fn new(seed: u64) -> Manometer {
         // Other numbers than the camera's, which are the same with and without a gauge.
-        let mut scatter = Scatter::new(seed ^ 0x6A06E);
+        let mut scatter = NormalNumbers::new(seed ^ 0x6A06E);
         let (zero_pa, gain) = (Self::SD[0] * scatter.normal(), 1.0 + Self::SD[1] * scatter.normal());
         Manometer { scatter, zero_pa, gain }
     }

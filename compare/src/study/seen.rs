@@ -12,7 +12,7 @@
 //! camera per run, camera noise per sample. Seeded: the same call gives the same bytes. **Validity**: first loading only.
 
 use super::engines::EngineRun;
-use super::eye::Seen;
+use super::eye::SimulatedCamera;
 use super::generate::{Generator, holds};
 use crate::error::CompareError;
 use crate::policy;
@@ -40,7 +40,7 @@ pub fn seen(runs: &[EngineRun], name: &str, generator: &Generator) -> Result<Dat
     if runs.iter().any(|run| run.actuator != first.actuator || run.stations_mm != first.stations_mm) {
         return Err(refuse("the finite element runs are of different robots".into()));
     }
-    let mut eye = Seen::new(generator, generator.protocol.len());
+    let mut eye = SimulatedCamera::new(generator, generator.protocol.len());
     let mut coordinates_m = Vec::new();
     for run in runs {
         let gains = eye.next_run();

@@ -3,7 +3,7 @@
 use crate::diagnosis::verdict::lack_of_fit::lack_of_fit;
 use crate::hold_scatter::KINDS;
 use crate::noise::NoiseModel;
-use crate::study::generate::{HoldScatter, Scatter};
+use crate::study::generate::{HoldScatter, NormalNumbers};
 use crate::study::predict::predict_dataset;
 use crate::study::published::textbook_scenario;
 use crate::study::{Generator, generate};
@@ -19,10 +19,10 @@ fn model() -> Scenario {
 }
 
 /// In how many sets p is below 0.01, of robots that the model knows but for what `change` does to the data.
-fn alarms(robot: &Scenario, base: &Generator, change: impl Fn(&mut Dataset, &mut Scatter)) -> usize {
+fn alarms(robot: &Scenario, base: &Generator, change: impl Fn(&mut Dataset, &mut NormalNumbers)) -> usize {
     let is_alarm = |seed: &u64| {
         let mut data = generate(robot, "made", &Generator { seed: *seed, ..base.clone() }).unwrap();
-        change(&mut data, &mut Scatter::new(seed ^ 0xAB));
+        change(&mut data, &mut NormalNumbers::new(seed ^ 0xAB));
         let predicted = predict_dataset(&model(), &data).unwrap();
         let noise = NoiseModel::estimate(&data, &predicted.d_ln_pressure_m, &[], None).unwrap();
         lack_of_fit(&data, &noise, &predicted.coordinates_m, 0).unwrap().unwrap().p_value < 0.01
@@ -30,7 +30,7 @@ fn alarms(robot: &Scenario, base: &Generator, change: impl Fn(&mut Dataset, &mut
     (1..=SETS).filter(is_alarm).count()
 }
 
-fn unchanged(_: &mut Dataset, _: &mut Scatter) {}
+fn unchanged(_: &mut Dataset, _: &mut NormalNumbers) {}
 
 /// No row of a right model may exceed 5 of 100: a true share of 1 % does that once in 1900 rows.
 fn assert_few(name: &str, runs: usize, alarms: usize) {
@@ -68,7 +68,7 @@ fn scatter_of_other_kinds_raises_no_alarm_either() {
     for runs in [3, 5, 10] {
         let base = Generator { runs, ..Generator::default() };
         let still = Generator { camera_sd_m: 0.0, ..base.clone() };
-        let bent = |data: &mut Dataset, scatter: &mut Scatter| {
+        let bent = |data: &mut Dataset, scatter: &mut NormalNumbers| {
             let straight: Vec<f64> = data.run(0)[..2 * data.markers.len()].to_vec();
             let hold = data.values_per_run() / data.holds.len();
             for values in data.coordinates_m.chunks_mut(hold) {
@@ -78,7 +78,7 @@ fn scatter_of_other_kinds_raises_no_alarm_either() {
             }
         };
         assert_few("bend 1 % per hold", runs, alarms(&model(), &base, bent));
-        let slow = |data: &mut Dataset, scatter: &mut Scatter| {
+        let slow = |data: &mut Dataset, scatter: &mut NormalNumbers| {
             let frame = 2 * data.markers.len();
             let mut error = vec![0.0; frame];
             for values in data.coordinates_m.chunks_mut(frame) {
@@ -90,7 +90,7 @@ fn scatter_of_other_kinds_raises_no_alarm_either() {
         };
         // Errors that fade over four holds are between those of a hold and those of a run. Without either, 100 of 100 gave alarm.
         assert_most("AR(1) of 0.95 from frame to frame", runs, alarms(&model(), &still, slow), 20);
-        let copied = |data: &mut Dataset, scatter: &mut Scatter| {
+        let copied = |data: &mut Dataset, scatter: &mut NormalNumbers| {
             let (frame, hold) = (2 * data.markers.len(), data.values_per_run() / data.holds.len());
             for values in data.coordinates_m.chunks_mut(hold) {
                 let (first, others) = values.split_at_mut(frame);

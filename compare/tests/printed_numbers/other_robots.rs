@@ -5,7 +5,7 @@ use crate::robots;
 use crate::robots::{BENDING, about, curvature, exact, holds, missing_moment, positions, scattered, scenario, text};
 use crate::{diagnosed, only, ranked, same};
 use compare::diagnosis::Options;
-use compare::extension::{Wish, add};
+use compare::extension::{EffectWish, add};
 use compare::{Evidence, ScenarioFile, extend};
 use data::{Dataset, Hold};
 use models::Scenario;
@@ -77,7 +77,7 @@ fn an_extension_writes_the_fit_of_its_own_effect_and_the_stiffness_of_its_own_bo
     let r = Reference::of(&file, &[&data], &[2e3, 4e3]);
     let (base, fit) = (r.base(), r.with(&["camera_scale"]));
     let (options, evidence) = (only(&["tail_tension", "camera_scale"]), [Evidence::of(data.clone(), None)]);
-    let wish = Wish::Fitted("camera_scale".into());
+    let wish = EffectWish::Fitted("camera_scale".into());
     let extension = add(&file, &wish, &evidence, &options, &mut |_, _| ()).unwrap();
     let d = diagnosed(&file, &[(&data, None)], &options);
     assert_ne!(d.ranked[0].effect, "camera_scale");

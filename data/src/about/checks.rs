@@ -15,12 +15,12 @@ use spelling::units::Range;
 const MOST_POUCHES: usize = 10_000;
 
 /// The text being checked, for the place of faults.
-pub(super) struct Check<'a> {
+pub(super) struct CheckedText<'a> {
     pub file: &'a str,
     pub text: &'a str,
 }
 
-impl Check<'_> {
+impl CheckedText<'_> {
     fn fault<T>(&self, key: &str, value: &Spanned<T>, message: &str, help: &str) -> DataError {
         let span = value.span();
         let at = Some((span.start, span.end));

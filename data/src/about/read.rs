@@ -5,7 +5,7 @@ use std::path::Path;
 use spelling::files::{MOST_TEXT, read_whole};
 
 use super::About;
-use super::checks::{Check, RawAbout};
+use super::checks::{CheckedText, RawAbout};
 use crate::error::{DataError, Fault, Result};
 
 /// Reads an `about.toml`.
@@ -32,7 +32,7 @@ pub fn read_about(path: &Path) -> Result<About> {
 /// ```
 pub fn parse_about(file: &str, text: &str) -> Result<About> {
     let raw: RawAbout = parse_toml(file, text)?;
-    let check = Check { file, text };
+    let check = CheckedText { file, text };
     let geometry = raw.geometry.map(|geometry| check.geometry(geometry)).transpose()?;
     Ok(About {
         markers: raw.markers.map_or(Ok(Vec::new()), |markers| check.markers(markers))?,

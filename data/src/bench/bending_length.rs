@@ -9,7 +9,7 @@
 
 use super::kind::{Bench, BenchKind, BenchRow};
 use crate::columns::{Field, field, plain};
-use crate::units::Measured::{Angle, Length};
+use crate::units::MeasuredQuantity::{Angle, Length};
 
 pub(super) const ENTRY: BenchKind = BenchKind {
     name: "bending_length",

@@ -2,7 +2,7 @@
 
 use super::kind::{BenchKind, BenchRow, scatter};
 use crate::columns::{Field, field, plain};
-use crate::units::Measured::{Angle, Force, Length, Pressure, Ratio};
+use crate::units::MeasuredQuantity::{Angle, Force, Length, Pressure, Ratio};
 use spelling::units::Range;
 
 pub(super) const ENTRY: BenchKind = BenchKind {

@@ -3,7 +3,7 @@
 use super::kind::{BenchKind, BenchRow, scatter};
 use crate::columns::{Field, field, plain};
 use crate::policy;
-use crate::units::Measured::{Force, Length, Pressure};
+use crate::units::MeasuredQuantity::{Force, Length, Pressure};
 use spelling::units::Range;
 
 pub(super) const ENTRY: BenchKind = BenchKind {

@@ -3,11 +3,11 @@
 use super::kind::{Bench, BenchKind, BenchRow};
 use crate::columns::{self, Head, Note, TableRow, meaning, needed};
 use crate::error::{DataError, Result};
-use crate::lines::Lines;
+use crate::lines::LineReader;
 
 /// Reads a table; `None` if its header is of no kind.
 pub(super) fn parse(kinds: &'static [BenchKind], file: &str, text: &str) -> Result<Option<Bench>> {
-    let mut lines = Lines::of_text(file, text);
+    let mut lines = LineReader::of_text(file, text);
     let (notes, head) = Head::read(&mut lines)?;
     let Some(head) = head else { return Ok(None) };
     let Some(kind) = kinds.iter().find(|kind| is_of(kind, &head.names, &notes)) else { return Ok(None) };

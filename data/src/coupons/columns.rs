@@ -2,10 +2,10 @@
 
 use super::coupon::CouponDefaults;
 use crate::about::Provenance;
-use crate::columns::{self, Field, Head, Note, Sheet, field, meaning, plain};
+use crate::columns::{self, Field, Head, Note, TableSheet, field, meaning, plain};
 use crate::error::{DataError, Result};
-use crate::lines::Lines;
-use crate::units::Measured::{Angle, Force, Length, Pressure, Ratio};
+use crate::lines::LineReader;
+use crate::units::MeasuredQuantity::{Angle, Force, Length, Pressure, Ratio};
 
 pub(super) const STRAIN: usize = 0;
 pub(super) const STRESS: usize = 1;
@@ -42,7 +42,7 @@ pub(super) struct Facts {
     pub provenance: Provenance,
 }
 
-pub(super) fn read(lines: &mut Lines, defaults: &CouponDefaults) -> Result<(Facts, Sheet)> {
+pub(super) fn read(lines: &mut LineReader, defaults: &CouponDefaults) -> Result<(Facts, TableSheet)> {
     let (notes, head) = Head::read(lines)?;
     let facts = facts(&notes)?;
     let Some(mut head) = head else {
@@ -85,7 +85,7 @@ fn misspelt(note: &Note, numbers: &[Field]) -> Result<()> {
 }
 
 /// Exactly one whole curve must be there.
-fn complete(sheet: &Sheet) -> Result<()> {
+fn complete(sheet: &TableSheet) -> Result<()> {
     let (line, has) = (sheet.head.line.line(), [STRAIN, STRESS, DISPLACEMENT, FORCE].map(|field| sheet.has(field)));
     match has {
         [true, true, false, false] | [false, false, true, true] => return Ok(()),

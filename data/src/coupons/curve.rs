@@ -18,14 +18,14 @@ pub(super) struct Specimens<'a> {
     pub facts: Facts,
     /// What was assumed about the file.
     pub told: Vec<String>,
-    pub found: Vec<Raw>,
+    pub found: Vec<RawCoupon>,
 }
 
 /// Rows of a curve, the widths of these rows, and how many rows were left out.
 type Kept = (Vec<[f64; 2]>, Vec<f64>, usize);
 
 #[derive(Default)]
-pub(super) struct Raw {
+pub(super) struct RawCoupon {
     name: String,
     rows: Vec<([f64; 2], u64)>,
     /// One for every row, or none at all.
@@ -61,9 +61,9 @@ impl Specimens<'_> {
     }
 
     /// A row of a specimen, new or known, in a line of the file.
-    pub(super) fn push(&mut self, name: &str, row: [f64; 2], line: u64) -> &mut Raw {
+    pub(super) fn push(&mut self, name: &str, row: [f64; 2], line: u64) -> &mut RawCoupon {
         let index = self.found.iter().rposition(|raw| raw.name == name).unwrap_or_else(|| {
-            self.found.push(Raw { name: name.to_string(), ..Raw::default() });
+            self.found.push(RawCoupon { name: name.to_string(), ..RawCoupon::default() });
             self.found.len() - 1
         });
         self.found[index].rows.push((row, line));
@@ -85,7 +85,7 @@ impl Specimens<'_> {
         Ok(coupons)
     }
 
-    fn coupon(&self, raw: &Raw, defaults: &CouponDefaults) -> Result<Coupon, DataError> {
+    fn coupon(&self, raw: &RawCoupon, defaults: &CouponDefaults) -> Result<Coupon, DataError> {
         let said = |quantity: usize, typed: Option<f64>| self.number(raw, quantity, typed);
         let direction = self.direction(said(DIRECTION, defaults.direction_deg)?, raw)?;
         let mut told = Vec::new();
@@ -109,7 +109,7 @@ impl Specimens<'_> {
     }
 
     /// What the rows, the comments or the caller say; they must not contradict each other.
-    fn number(&self, raw: &Raw, quantity: usize, typed: Option<f64>) -> Result<Option<f64>, DataError> {
+    fn number(&self, raw: &RawCoupon, quantity: usize, typed: Option<f64>) -> Result<Option<f64>, DataError> {
         let Field { base, expected, .. } = &QUANTITIES[quantity];
         let written = raw.numbers[quantity].or(self.facts.numbers[quantity]);
         let (unit, per_si) = if quantity == DIRECTION { ("deg", 1.0) } else { ("mm", 1e3) };
@@ -130,7 +130,7 @@ impl Specimens<'_> {
         Ok(value)
     }
 
-    fn direction(&self, degrees: Option<f64>, raw: &Raw) -> Result<Direction, DataError> {
+    fn direction(&self, degrees: Option<f64>, raw: &RawCoupon) -> Result<Direction, DataError> {
         let help = "write 0 (pulled along the warp), 45 (bias), 90 (along the fill) or an angle between (60 for 120, the weave \
                     is the same): as a column direction_deg, as a comment # direction_deg: 0 above the header, or as \
                     --direction 0 for all files without one";
@@ -142,7 +142,7 @@ impl Specimens<'_> {
     }
 
     /// The first loading, zeroed on the first row: rows that rise above all before. Steps back that are noise are left out and counted.
-    fn rows(&self, raw: &Raw, told: &mut Vec<String>) -> Result<Kept, DataError> {
+    fn rows(&self, raw: &RawCoupon, told: &mut Vec<String>) -> Result<Kept, DataError> {
         let ([x, _], column, first) = (self.curve, &self.columns[0], raw.rows[0].0);
         let range = raw.rows.iter().map(|(row, _)| (row[0] - first[0]).abs()).fold(0.0, f64::max);
         let (length, unit) = match x {
@@ -193,7 +193,7 @@ impl Specimens<'_> {
 
     /// Signs that turn displacement and force of a pull into positive ones. A pull is known by its force, which grows from the first
     /// row to the farthest one; a force is negative if it falls below the first row by more than twice what it rises above it.
-    fn signs(&self, raw: &Raw, told: &mut Vec<String>) -> [f64; 2] {
+    fn signs(&self, raw: &RawCoupon, told: &mut Vec<String>) -> [f64; 2] {
         let first = raw.rows[0].0;
         let of = |k: usize| raw.rows.iter().map(move |(row, _)| row[k] - first[k]);
         let largest = |k: usize, sign: f64| of(k).map(|v| sign * v).fold(0.0, f64::max);
@@ -210,7 +210,7 @@ impl Specimens<'_> {
         turned.map(|turned| if turned { -1.0 } else { 1.0 })
     }
 
-    fn fault(&self, raw: &Raw, message: impl Display, help: impl Into<String>) -> DataError {
+    fn fault(&self, raw: &RawCoupon, message: impl Display, help: impl Into<String>) -> DataError {
         let message = format!("specimen {}: {message}", raw.name);
         DataError::of(self.file, message, help).at_line(raw.rows[0].1)
     }

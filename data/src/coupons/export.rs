@@ -6,7 +6,7 @@ use super::curve::Specimens;
 use crate::cells::is_nothing;
 use crate::error::DataError;
 use crate::import::sheet::CellText;
-use crate::units::Measured;
+use crate::units::MeasuredQuantity;
 use spelling::units::Unit;
 
 /// Words of machines for what they measure; times are known so that they begin a specimen.
@@ -131,7 +131,7 @@ fn no_unit(sheet: &CellText, number: u64, name: &str, word: &str) -> DataError {
         "" => format!("{name} has no unit"),
         word => format!("{name} has the unit {word}, which is not known"),
     };
-    let units = Measured::Length.sentence();
+    let units = MeasuredQuantity::Length.sentence();
     let help = format!("write it behind the name, for example {name} (mm); {units}");
     sheet.fault(number, message, help)
 }

@@ -26,10 +26,10 @@ mod tests;
 use std::io::Read;
 use std::path::Path;
 
-use crate::columns::Sheet;
+use crate::columns::TableSheet;
 use crate::error::DataError;
 use crate::import::sheet::CellText;
-use crate::lines::Lines;
+use crate::lines::LineReader;
 use columns::{DISPLACEMENT, FORCE, STRAIN, STRESS};
 pub use coupon::{Coupon, CouponDefaults, Direction, Pulled};
 use curve::Specimens;
@@ -84,9 +84,9 @@ pub fn parse_coupons(
     let sheet = std::str::from_utf8(&bytes).ok().map(|text| CellText::new(file, text)).transpose()?;
     let comma = sheet.as_ref().is_some_and(|sheet| sheet.comma);
     let mut own = bytes.as_slice();
-    let mut lines = Lines::new(file, &mut own, bytes_total, progress);
+    let mut lines = LineReader::new(file, &mut own, bytes_total, progress);
     let (facts, header) = match columns::read(&mut lines, defaults) {
-        Ok((facts, header)) => (facts, Sheet { comma, ..header }),
+        Ok((facts, header)) => (facts, TableSheet { comma, ..header }),
         Err(refused) => {
             let export = sheet.as_ref().filter(|_| defaults.columns.is_empty());
             let export = export.map(|sheet| export::read(sheet, defaults)).transpose()?.flatten();

@@ -7,7 +7,7 @@ use super::options::ImportOptions;
 use super::recording::Lengths;
 use super::sheet::CellText;
 use crate::error::Result;
-use crate::units::Measured;
+use crate::units::MeasuredQuantity;
 
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ColumnName {
@@ -19,21 +19,21 @@ pub(crate) struct ColumnName {
 }
 
 /// Units by other names, with their SI value; frames and pixels have none.
-const OTHER_NAMES: [(Measured, f64, &[&str]); 9] = [
-    (Measured::Time, 1.0, &["sec", "secs", "second", "seconds"]),
-    (Measured::Time, 1e-3, &["msec", "milliseconds", "millis"]),
-    (Measured::Time, 1e-6, &["micros", "µs"]),
-    (Measured::Length, 1e-3, &["millimeters", "millimetres"]),
-    (Measured::Length, 1e-2, &["centimeters", "centimetres"]),
-    (Measured::Length, 1.0, &["meters", "metres"]),
-    (Measured::Length, 1e-6, &["micron", "µm", "um"]),
-    (Measured::Length, 0.0254, &["in"]),
-    (Measured::Pressure, 1e2, &["mbar", "hpa"]),
+const OTHER_NAMES: [(MeasuredQuantity, f64, &[&str]); 9] = [
+    (MeasuredQuantity::Time, 1.0, &["sec", "secs", "second", "seconds"]),
+    (MeasuredQuantity::Time, 1e-3, &["msec", "milliseconds", "millis"]),
+    (MeasuredQuantity::Time, 1e-6, &["micros", "µs"]),
+    (MeasuredQuantity::Length, 1e-3, &["millimeters", "millimetres"]),
+    (MeasuredQuantity::Length, 1e-2, &["centimeters", "centimetres"]),
+    (MeasuredQuantity::Length, 1.0, &["meters", "metres"]),
+    (MeasuredQuantity::Length, 1e-6, &["micron", "µm", "um"]),
+    (MeasuredQuantity::Length, 0.0254, &["in"]),
+    (MeasuredQuantity::Pressure, 1e2, &["mbar", "hpa"]),
 ];
 
 /// SI value of a unit, if it is one of this dimension.
-pub(crate) fn si(unit: &str, dimension: Measured) -> Option<f64> {
-    let is_named = |(of, _, names): &&(Measured, f64, &[&str])| *of == dimension && names.contains(&unit);
+pub(crate) fn si(unit: &str, dimension: MeasuredQuantity) -> Option<f64> {
+    let is_named = |(of, _, names): &&(MeasuredQuantity, f64, &[&str])| *of == dimension && names.contains(&unit);
     let named = || OTHER_NAMES.iter().find(is_named).map(|(_, factor, _)| *factor);
     dimension.unit(unit).map(|unit| unit.factor()).or_else(named)
 }
@@ -47,7 +47,7 @@ pub(crate) fn is_frame(unit: &str) -> bool {
 }
 
 pub(super) fn is_unit(word: &str) -> bool {
-    let dimensions = [Measured::Length, Measured::Time, Measured::Pressure];
+    let dimensions = [MeasuredQuantity::Length, MeasuredQuantity::Time, MeasuredQuantity::Pressure];
     is_pixel(word) || is_frame(word) || dimensions.into_iter().any(|dimension| si(word, dimension).is_some())
 }
 
@@ -191,7 +191,7 @@ impl Roles {
                     return Ok(());
                 }
                 // `millis` is a name and a unit.
-                let seconds = unit.or(name.word()).and_then(|unit| si(unit, Measured::Time));
+                let seconds = unit.or(name.word()).and_then(|unit| si(unit, MeasuredQuantity::Time));
                 if !frames && seconds.is_none() {
                     self.told.push(format!("column {text} names no unit of time: taken as seconds"));
                 }
@@ -203,7 +203,8 @@ impl Roles {
             "actuator" => self.actuator.replace(index).is_some(),
             "marker" => self.marker.replace(index).is_some(),
             "p_body" | "p_act" => {
-                let (named, given) = (unit.and_then(|unit| si(unit, Measured::Pressure)), options.pressure_unit_pa);
+                let (named, given) =
+                    (unit.and_then(|unit| si(unit, MeasuredQuantity::Pressure)), options.pressure_unit_pa);
                 if named.is_some() && given.is_some() && named != given {
                     self.told.push(format!("column {text} names its unit: --pressure-unit was not used for it"));
                 }
@@ -250,7 +251,7 @@ impl Roles {
 }
 
 pub(crate) fn lengths(unit: &str) -> Option<Lengths> {
-    if is_pixel(unit) { Some(Lengths::Pixels) } else { si(unit, Measured::Length).map(Lengths::Metres) }
+    if is_pixel(unit) { Some(Lengths::Pixels) } else { si(unit, MeasuredQuantity::Length).map(Lengths::Metres) }
 }
 
 /// Names of a column of times.
@@ -262,7 +263,7 @@ pub(super) fn is_time(name: &ColumnName) -> bool {
 
 /// What a column with a telling name holds.
 fn meaning(name: &ColumnName) -> Option<&'static str> {
-    let in_pressure = name.unit.as_deref().is_some_and(|unit| si(unit, Measured::Pressure).is_some());
+    let in_pressure = name.unit.as_deref().is_some_and(|unit| si(unit, MeasuredQuantity::Pressure).is_some());
     let (pressure, coordinate) = (in_pressure || name.has(&["p", "pressure"]), name.coordinate());
     match name {
         _ if name.has(&["gauge"]) => None,
@@ -299,7 +300,11 @@ mod tests {
                 && ColumnName::of("frame").is("frame")
         );
         assert_eq!(
-            (si("ms", Measured::Time), si("ms", Measured::Length), si("micron", Measured::Length)),
+            (
+                si("ms", MeasuredQuantity::Time),
+                si("ms", MeasuredQuantity::Length),
+                si("micron", MeasuredQuantity::Length)
+            ),
             (Some(1e-3), None, Some(1e-6))
         );
     }

@@ -26,7 +26,7 @@ fn read(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>> {
     let animals = row("individuals");
     let several = animals.is_some_and(|row| row.iter().skip(1).any(|name| *name != row[1] && *name != "single"));
     let lengths = if coords.contains(&"z") { Lengths::Unsaid } else { Lengths::Pixels };
-    let mut layout = Layout::new(first, 0, None, lengths);
+    let mut layout = FrameColumns::new(first, 0, None, lengths);
     layout.width = Some(heads[0].len());
     layout.unlikely(options, NOT_SEEN, 1.0, "less likely than");
     let column = |column: usize| {

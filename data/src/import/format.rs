@@ -2,13 +2,13 @@
 
 pub(super) use super::columns::{ColumnName, Roles, is_frame, lengths, si};
 pub(super) use super::labels::without_subject;
-pub(super) use super::layout::{LIKELIHOOD, Layout, NOT_SEEN, PARTS, part};
+pub(super) use super::layout::{FrameColumns, LIKELIHOOD, NOT_SEEN, PARTS, part};
 pub(super) use super::options::ImportOptions;
 pub(super) use super::recording::{Lengths, Pivot, Recording, counted};
 pub(super) use super::sheet::CellText;
 pub(super) use crate::cells::is_nothing;
 pub(super) use crate::error::Result;
-pub(super) use crate::units::Measured;
+pub(super) use crate::units::MeasuredQuantity;
 
 /// A program's tracking file, as one entry of the list.
 #[derive(Debug)]

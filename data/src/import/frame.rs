@@ -1,6 +1,6 @@
 //! From the file's coordinates to the robot's: scale, origin at the base, x along the straight robot, y towards the actuator.
 
-use super::lens::View;
+use super::lens::CameraView;
 use super::options::{FileAxis, FilePlace, ImportOptions, Scale};
 use super::recording::{LOST, Lengths, Recording};
 use super::vectors::{along, cross, towards, unit_vector};
@@ -19,7 +19,7 @@ const LARGER_BOARD: &str = "film a board that fills the part of the picture in w
 #[derive(Debug, Clone)]
 enum Map {
     Factor(f64),
-    Board(View),
+    Board(CameraView),
 }
 
 impl Map {
@@ -47,7 +47,7 @@ pub(crate) struct PlacedRuns {
 }
 
 /// Runs that have the same markers in the same order, as a camera saw them.
-pub(crate) struct Scene<'a> {
+pub(crate) struct CameraRuns<'a> {
     pub file: &'a str,
     pub runs: &'a [Recording],
     /// Frames at rest and at the top, of every run.
@@ -55,7 +55,7 @@ pub(crate) struct Scene<'a> {
     pub options: &'a ImportOptions,
 }
 
-impl Scene<'_> {
+impl CameraRuns<'_> {
     /// Puts the runs into the robot's frame; `assumed` receives the assumptions.
     pub(super) fn place(&self, assumed: &mut Vec<String>) -> Result<PlacedRuns> {
         let (map, words) = self.map()?;
@@ -120,7 +120,7 @@ impl Scene<'_> {
             }
             Scale::Board(corners, square_m) => {
                 let help = "give at least four corners, no three on a line: a table column,row,x,y";
-                let board = View::of_board(corners, *square_m).map_err(|message| self.fault(message, help))?;
+                let board = CameraView::of_board(corners, *square_m).map_err(|message| self.fault(message, help))?;
                 let words = board.words(corners.len()) + &self.outside(&board)?;
                 (Map::Board(board), words)
             }
@@ -129,7 +129,7 @@ impl Scene<'_> {
     }
 
     /// How many of the places are outside of the board, where lens and plane are extrapolated.
-    fn outside(&self, board: &View) -> Result<String> {
+    fn outside(&self, board: &CameraView) -> Result<String> {
         let places = self.runs.iter().flat_map(|run| run.places.iter().flatten());
         let pixels: Vec<[f64; 2]> = places.map(|at| [at[0], at[1]]).filter(|at| at[0].is_finite()).collect();
         if let Some([x, y]) = pixels.iter().find(|pixel| !board.knows(**pixel)) {
@@ -330,7 +330,7 @@ struct Moved {
 }
 
 impl Moved {
-    fn of(scene: &Scene, bases: &[[f64; 3]], markers: &[usize], map: &Map) -> Moved {
+    fn of(scene: &CameraRuns, bases: &[[f64; 3]], markers: &[usize], map: &Map) -> Moved {
         let (mut rest, mut by) = (Vec::new(), Vec::new());
         for &marker in markers {
             let (mut sums, mut count) = ([[0.0; 3]; 2], 0.0);

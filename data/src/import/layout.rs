@@ -22,7 +22,7 @@ pub(super) fn part(word: &str) -> Option<usize> {
 }
 
 /// The columns of one marker, in the order of [`PARTS`].
-struct Track {
+struct MarkerColumns {
     /// Empty where a column names the marker of every row.
     name: String,
     columns: [Option<usize>; PARTS.len()],
@@ -30,7 +30,7 @@ struct Track {
 
 /// The columns of a table with a row for every frame, or for every frame and marker.
 #[derive(Default)]
-pub(super) struct Layout {
+pub(super) struct FrameColumns {
     /// The line that names the columns.
     pub line: u64,
     pub time: usize,
@@ -56,13 +56,13 @@ pub(super) struct Layout {
     /// What to do about a marker that has two places at one time; `None` if every run has its own file.
     pub twice: Option<&'static str>,
     pub told: Vec<String>,
-    tracks: Vec<Track>,
+    tracks: Vec<MarkerColumns>,
 }
 
-impl Layout {
+impl FrameColumns {
     /// No marker yet; times of this unit in this column, which a line names with the others.
-    pub(super) fn new(line: u64, time: usize, second: Option<f64>, lengths: Lengths) -> Layout {
-        Layout {
+    pub(super) fn new(line: u64, time: usize, second: Option<f64>, lengths: Lengths) -> FrameColumns {
+        FrameColumns {
             line,
             time,
             second,
@@ -70,7 +70,7 @@ impl Layout {
             likely: [f64::NEG_INFINITY, f64::INFINITY],
             named: true,
             row_of: ["row", "marker"],
-            ..Layout::default()
+            ..FrameColumns::default()
         }
     }
 
@@ -90,7 +90,7 @@ impl Layout {
         for (column, name, part) in columns {
             let name = name.as_ref();
             let at = self.tracks.iter().position(|track| track.name == name).unwrap_or_else(|| {
-                self.tracks.push(Track { name: name.to_string(), columns: [None; PARTS.len()] });
+                self.tracks.push(MarkerColumns { name: name.to_string(), columns: [None; PARTS.len()] });
                 self.tracks.len() - 1
             });
             if self.tracks[at].columns[part].replace(column).is_some() {
@@ -158,7 +158,7 @@ impl Layout {
             return Err(sheet.fault(number, format!("the time goes back here, to {time}"), help));
         }
         let frame = pivot.frame(t);
-        for Track { name, columns } in &self.tracks {
+        for MarkerColumns { name, columns } in &self.tracks {
             let value = |part: usize, absent: f64| {
                 let Some(text) = columns[part].map(|column| cell(cells, column)) else { return Ok(absent) };
                 let what = || format!("{} of {}", PARTS[part], of(name));
@@ -210,7 +210,7 @@ struct Runs {
 
 impl Runs {
     /// The recording of the run of a row.
-    fn of(&mut self, layout: &Layout, cells: &[&str]) -> &mut Pivot {
+    fn of(&mut self, layout: &FrameColumns, cells: &[&str]) -> &mut Pivot {
         let run = layout.run.map_or("", |column| label(cell(cells, column)));
         let number = self.labels.number(run);
         if number == self.pivots.len() {

@@ -36,7 +36,7 @@ const STEPS: usize = 40;
 
 /// A camera as a board shows it.
 #[derive(Debug, Clone)]
-pub(super) struct View {
+pub(super) struct CameraView {
     lens: Option<Lens>,
     plane: Homography,
     /// Distance of the corners from their places: root mean square \[px\], the same on the board and the largest \[m\].
@@ -46,21 +46,21 @@ pub(super) struct View {
     frame: [[f64; 2]; 2],
 }
 
-impl View {
+impl CameraView {
     /// Least squares over corners (column, row, x, y) of a board with squares of this side. A lens is taken where it leaves less than
     /// Schwarz's criterion asks for its four numbers.
     ///
     /// # Errors
     /// Corners that make no plane.
-    pub(super) fn of_board(corners: &[[f64; 4]], square_m: f64) -> Result<View, String> {
-        let plain = View::with(None, corners, square_m)?;
+    pub(super) fn of_board(corners: &[[f64; 4]], square_m: f64) -> Result<CameraView, String> {
+        let plain = CameraView::with(None, corners, square_m)?;
         let values = 2.0 * corners.len() as f64;
-        let gains = |bent: &View| 2.0 * values * (plain.rms_px / bent.rms_px).ln() > 2.0 * N as f64 * values.ln();
+        let gains = |bent: &CameraView| 2.0 * values * (plain.rms_px / bent.rms_px).ln() > 2.0 * N as f64 * values.ln();
         let bent = (corners.len() >= FEWEST && plain.rms_px > FINEST_PX).then(|| plain.bent(corners, square_m));
         Ok(bent.flatten().filter(gains).unwrap_or(plain))
     }
 
-    fn with(lens: Option<Lens>, corners: &[[f64; 4]], square_m: f64) -> Result<View, String> {
+    fn with(lens: Option<Lens>, corners: &[[f64; 4]], square_m: f64) -> Result<CameraView, String> {
         let mut straight = corners.to_vec();
         for corner in straight.iter_mut().filter(|_| lens.is_some()) {
             let [x, y] = lens.map_or([corner[2], corner[3]], |lens| lens.straight([corner[2], corner[3]]));
@@ -71,7 +71,7 @@ impl View {
             let values = || corners.iter().map(|corner| corner[k]);
             [values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max)]
         });
-        let mut view = View { lens, plane, rms_px, off_m: [0.0; 2], frame };
+        let mut view = CameraView { lens, plane, rms_px, off_m: [0.0; 2], frame };
         let off = |corner: &[f64; 4]| {
             let [x, y] = view.at([corner[2], corner[3]]);
             (x - corner[0] * square_m).hypot(y - corner[1] * square_m)
@@ -82,7 +82,7 @@ impl View {
     }
 
     /// The lens that leaves least, by Levenberg's and Marquardt's steps with slopes from differences; the centre stays on the board.
-    fn bent(&self, corners: &[[f64; 4]], square_m: f64) -> Option<View> {
+    fn bent(&self, corners: &[[f64; 4]], square_m: f64) -> Option<CameraView> {
         let [[left, right], [top, bottom]] = self.frame;
         let size = 0.5 * (right - left).hypot(bottom - top);
         let view = |q: &[f64; N]| {
@@ -92,10 +92,10 @@ impl View {
             ];
             let lens = Lens { centre, size, k: [q[0], q[1]] };
             let rises = corners.iter().all(|corner| lens.rises([corner[2], corner[3]]));
-            View::with(Some(lens).filter(|_| rises), corners, square_m).ok().filter(|_| rises)
+            CameraView::with(Some(lens).filter(|_| rises), corners, square_m).ok().filter(|_| rises)
         };
         // Pixels without the lens are as large as the pixels of the picture near the centre, so that misses are comparable.
-        let misses = |view: &View| -> Vec<f64> {
+        let misses = |view: &CameraView| -> Vec<f64> {
             let miss = |corner: &[f64; 4]| {
                 let [x, y] = view.at([corner[2], corner[3]]);
                 [x - corner[0] * square_m, y - corner[1] * square_m]

@@ -165,7 +165,7 @@ fn serial(text: &str, stamped: bool, named: bool) -> Plain {
         let (stamp, rest) = arrival(line.trim_start_matches('\u{feff}'));
         let row: Option<Vec<String>> = match readings(rest).filter(|_| named) {
             Some(found) => {
-                let columns: Vec<String> = found.iter().map(Reading::column).collect();
+                let columns: Vec<String> = found.iter().map(LoggerReading::column).collect();
                 if table.names.is_empty() {
                     // The device's own time is better than the time of arrival.
                     let own = found.iter().any(|reading| is_time(&ColumnName::of(&reading.name)));
@@ -195,21 +195,21 @@ fn serial(text: &str, stamped: bool, named: bool) -> Plain {
     table
 }
 
-struct Reading {
+struct LoggerReading {
     name: String,
     value: String,
     unit: Option<String>,
 }
 
-impl Reading {
+impl LoggerReading {
     fn column(&self) -> String {
-        let Reading { name, unit, .. } = self;
+        let LoggerReading { name, unit, .. } = self;
         unit.as_ref().map_or(name.clone(), |unit| format!("{name} ({unit})"))
     }
 }
 
 /// The readings of a line, each `name: number unit` or `name=number`; none if it has anything else.
-fn readings(line: &str) -> Option<Vec<Reading>> {
+fn readings(line: &str) -> Option<Vec<LoggerReading>> {
     let mut parts = line.split([':', '=']).peekable();
     let mut name = parts.next()?.trim().to_string();
     let mut found = Vec::new();
@@ -226,7 +226,7 @@ fn readings(line: &str) -> Option<Vec<Reading>> {
         let parted = rest.first().copied().filter(|word| unit.is_none() && is_unit(word));
         rest.drain(..usize::from(parted.is_some()));
         let (value, unit) = (value.to_string(), unit.or(parted).map(str::to_string));
-        found.push(Reading { name, value, unit });
+        found.push(LoggerReading { name, value, unit });
         name = rest.join(" ");
         if last != name.is_empty() {
             return None;

@@ -55,7 +55,7 @@ pub use columns::QUANTITIES;
 use cut::{Cut, cut, pressed};
 pub use format::Format;
 pub use formats::{FORMATS, LOGS};
-use frame::{PlacedRuns, RestAndTop, Scene};
+use frame::{CameraRuns, PlacedRuns, RestAndTop};
 pub(crate) use holds::{Kept, PressedRun, median, plateaus};
 use join::Joined;
 pub use options::{FileAxis, FilePlace, ImportOptions, Offset, Scale};
@@ -112,7 +112,7 @@ pub fn import(files: &[PathBuf], options: &ImportOptions, progress: Progress) ->
     let ends = runs.iter().map(|run| ends(file, run)).collect::<Result<Vec<_>>>()?;
     labels::rename(file, &mut runs, &ends, options, &mut told)?;
     let actuator = actuator(file, &runs, options)?;
-    let scene = Scene { file, runs: &runs, ends: &ends, options };
+    let scene = CameraRuns { file, runs: &runs, ends: &ends, options };
     let PlacedRuns { xy_m, markers } = scene.place(&mut told)?;
     let runs = pressed(runs, xy_m);
     let given = markers.iter().map(|name| (name.clone(), options.station_m(name))).collect();

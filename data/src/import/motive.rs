@@ -33,7 +33,7 @@ fn read(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
     let time = axes.iter().position(|name| name.starts_with("Time")).unwrap_or(1);
     let unit = settings.iter().position(|cell| *cell == "Length Units").and_then(|at| settings.get(at + 1));
     let lengths = unit_of(sheet, 1, unit.copied().unwrap_or_default())?;
-    let mut layout = Layout::new(number, time, Some(1.0), lengths);
+    let mut layout = FrameColumns::new(number, time, Some(1.0), lengths);
     let is_place = |column: &usize| {
         let is_marker = types.get(*column).is_some_and(|cell| cell.contains("Marker"));
         is_marker && what.get(*column) == Some(&"Position")

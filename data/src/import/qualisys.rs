@@ -35,7 +35,7 @@ fn read(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
         Some(time) => (time, 1.0),
         None => (0, 1.0 / rate.unwrap_or_else(|| rate_of(sheet, header, ""))?),
     };
-    let mut layout = Layout::new(header, time, Some(second), Lengths::Metres(1e-3));
+    let mut layout = FrameColumns::new(header, time, Some(second), Lengths::Metres(1e-3));
     layout.width = Some(names.len());
     let columns = names.iter().enumerate().filter_map(|(column, name)| {
         let (marker, axis) = name.rsplit_once(' ')?;

@@ -23,7 +23,7 @@ const NO_PLACE: [&str; 5] = ["orientation", "rotation", "linear", "angular", "si
 
 fn read(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
     let names = sheet.head(1).pop().unwrap_or_default();
-    let mut layout = Layout::new(1, stamp(&names), Some(1.0), Lengths::Metres(1.0));
+    let mut layout = FrameColumns::new(1, stamp(&names), Some(1.0), Lengths::Metres(1.0));
     layout.width = Some(names.len());
     let columns = names.iter().enumerate().filter_map(|(column, name)| {
         let mut words: Vec<&str> = name.split('.').collect();

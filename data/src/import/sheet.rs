@@ -2,7 +2,7 @@
 
 use crate::cells::{Decimals, clock_s, day_s, is_nothing, with_comma};
 use crate::error::{DataError, Result};
-use crate::lines::Line;
+use crate::lines::TextLine;
 use spelling::units::Range;
 
 /// Lines looked at to find separator and decimal sign.
@@ -131,7 +131,7 @@ impl<'a> CellText<'a> {
     fn has_decimal_comma(&self) -> Result<bool> {
         let mut decimals = Decimals::default();
         for (number, text) in self.lines().take(LOOKED_AT) {
-            let line = Line { file: self.file, number, start: 0, text, ended: true };
+            let line = TextLine { file: self.file, number, start: 0, text, ended: true };
             for cell in self.split(text).into_iter().filter(|cell| with_comma(cell).is_some()) {
                 decimals.number(cell, true, &line)?;
             }

@@ -17,7 +17,7 @@ const SCORE: f64 = 0.2;
 fn read(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>> {
     let header = sheet.head(1).pop().unwrap_or_default();
     let column = |name: &str| header.iter().position(|known| *known == name);
-    let mut layout = Layout::new(1, column("frame_idx").unwrap_or_default(), None, Lengths::Pixels);
+    let mut layout = FrameColumns::new(1, column("frame_idx").unwrap_or_default(), None, Lengths::Pixels);
     layout.unlikely(options, SCORE, f64::INFINITY, "with a score below");
     layout.width = Some(header.len());
     layout.marker = column("track").filter(|track| has_several(sheet, *track));

@@ -68,7 +68,7 @@ fn trackpy(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>> 
     long_of(sheet, &roles, layout)
 }
 
-fn long_of(sheet: &CellText, roles: &Roles, mut layout: Layout) -> Result<Vec<Recording>> {
+fn long_of(sheet: &CellText, roles: &Roles, mut layout: FrameColumns) -> Result<Vec<Recording>> {
     layout.marker = roles.marker;
     let of_part = |part: usize| roles.columns.iter().filter(move |column| column.2 == part);
     let first = |axis: usize| Some((of_part(axis).next()?.0, "", axis));
@@ -98,14 +98,14 @@ fn wide(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>> {
 pub(super) const NOT_USED: &str = "the files have no likelihood: --likelihood was not used";
 
 /// What the columns of a table are, and what both kinds have.
-fn begin(sheet: &CellText, options: &ImportOptions) -> Result<(Roles, Layout)> {
+fn begin(sheet: &CellText, options: &ImportOptions) -> Result<(Roles, FrameColumns)> {
     let (first, header) = sheet.lines().next().unwrap_or_default();
     let roles = Roles::of(sheet, first, &sheet.split(header), options)?;
     let Some((time, second)) = roles.time else {
         let help = "say which: --map t=Time, or frame=Frame";
         return Err(sheet.fault(first, "no column is the time", help));
     };
-    let mut layout = Layout::new(first, time, second, roles.lengths(sheet, first)?);
+    let mut layout = FrameColumns::new(first, time, second, roles.lengths(sheet, first)?);
     (layout.run, layout.actuator, layout.pressures) = (roles.run, roles.actuator, roles.pressures);
     layout.told.clone_from(&roles.told);
     if let Some(most) = roles.most_likely {

@@ -27,8 +27,8 @@ fn read(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
     let first = rows(&head).unwrap_or_default();
     let columns: Vec<ColumnName> = head[first + 1].iter().map(|cell| ColumnName::of(cell)).collect();
     let unit = columns.iter().find(|name| name.is("x")).and_then(|name| name.unit.as_deref());
-    let second = columns[0].unit.as_deref().and_then(|unit| si(unit, Measured::Time)).unwrap_or(1.0);
-    let mut layout = Layout::new(2, 0, Some(second), unit.and_then(lengths).unwrap_or(Lengths::Unsaid));
+    let second = columns[0].unit.as_deref().and_then(|unit| si(unit, MeasuredQuantity::Time)).unwrap_or(1.0);
+    let mut layout = FrameColumns::new(2, 0, Some(second), unit.and_then(lengths).unwrap_or(Lengths::Unsaid));
     let names: Vec<&str> = head[first].iter().copied().filter(|name| !name.is_empty()).collect();
     let pairs = columns.iter().filter(|name| name.is("x")).count();
     if names.len() != pairs {

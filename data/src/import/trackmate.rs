@@ -37,10 +37,10 @@ fn spots<'s>(sheet: &CellText<'s>, _options: &ImportOptions) -> Result<Vec<Recor
     let heads: Vec<&str> = sheet.lines().skip(1).map(|(_, line)| line).take_while(is_head).collect();
     let unit_in = |line: &'s str, index| ColumnName::of(&format!("x {}", cell(line, index).unwrap_or_default())).unit;
     let unit = |index| heads.iter().rev().find_map(|line| unit_in(line, index));
-    let second = unit(t).filter(|unit| !is_frame(unit)).and_then(|unit| si(&unit, Measured::Time));
+    let second = unit(t).filter(|unit| !is_frame(unit)).and_then(|unit| si(&unit, MeasuredQuantity::Time));
     let time = if second.is_some() { t } else { frame.or(t) };
     let lengths = unit(x).and_then(|unit| lengths(&unit)).unwrap_or(Lengths::Pixels);
-    let mut layout = Layout::new(1, time.unwrap_or_default(), second, lengths);
+    let mut layout = FrameColumns::new(1, time.unwrap_or_default(), second, lengths);
     (layout.marker, layout.named, layout.row_of) = (track, false, ["spot", "track"]);
     let places = places.into_iter().enumerate().filter_map(|(part, index)| Some((index?, "", part)));
     layout.columns(sheet, places)?;
@@ -90,7 +90,7 @@ fn xml(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
     };
     let unit = said(["spaceUnits", "spatialunits"]).and_then(|unit| lengths(&unit));
     let time = said(["timeUnits", "timeunits"]).unwrap_or_default();
-    let second = si(&time, Measured::Time).filter(|_| !is_frame(&time));
+    let second = si(&time, MeasuredQuantity::Time).filter(|_| !is_frame(&time));
     let mut pivot = Pivot::new(unit.unwrap_or(Lengths::Pixels), second.is_some());
     let exported = tags(sheet.text).any(|tag| tag.name == "particle");
     let read = if exported { detections } else { model };

@@ -53,7 +53,7 @@ fn vicon(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
             return Err(sheet.fault(unit_line, message, "export all trajectories in one unit"));
         }
     }
-    let mut layout = Layout::new(line, 0, Some(1.0 / fps), lengths);
+    let mut layout = FrameColumns::new(line, 0, Some(1.0 / fps), lengths);
     columns(sheet, &mut layout, &names, &axes)?;
     let is_row = |(_, text): &(u64, &str)| sheet.split(text).iter().filter(|cell| !cell.is_empty()).count() > 1;
     layout.read(sheet, 3, lines.take_while(is_row))
@@ -71,7 +71,7 @@ fn trc(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
         Some(time) => (time, 1.0),
         None => (0, 1.0 / rate_of(sheet, line, of("DataRate"))?),
     };
-    let mut layout = Layout::new(line, time, Some(second), unit);
+    let mut layout = FrameColumns::new(line, time, Some(second), unit);
     columns(sheet, &mut layout, &names, &axes)?;
     layout.read(sheet, 3, lines)
 }
@@ -95,7 +95,7 @@ pub(super) fn unit_of(sheet: &CellText, line: u64, word: &str) -> Result<Lengths
 }
 
 /// The columns X, Y, Z below every name.
-fn columns(sheet: &CellText, layout: &mut Layout, names: &[&str], axes: &[&str]) -> Result<()> {
+fn columns(sheet: &CellText, layout: &mut FrameColumns, names: &[&str], axes: &[&str]) -> Result<()> {
     let labeled = |name: &str| !name.is_empty() && !name.starts_with('*') && !name.contains("Unlabeled");
     let axis = |column: usize| part(axes.get(column)?.get(..1)?).filter(|part| *part < LIKELIHOOD);
     let is_head = |column: &usize| labeled(names[*column]) && axis(*column).is_some();

@@ -3,7 +3,7 @@
 //! Some are known by their numbers (`rows::PLACEHOLDERS`). Any other is known by two markers that were seen there to the last digit,
 //! far from where both were else: no camera sees two markers at one place.
 
-use super::segments::{Segment, Stream};
+use super::segments::{HoldSegment, Stream};
 use crate::policy;
 use crate::units::mm;
 
@@ -70,7 +70,7 @@ fn shared(streams: &[Stream]) -> Vec<Place> {
 }
 
 /// Places of which a segment has two samples in a row, or its only one.
-fn stood_still(segment: &Segment) -> Vec<Place> {
+fn stood_still(segment: &HoldSegment) -> Vec<Place> {
     let places: Vec<Place> = segment.samples.iter().map(|sample| sample.place().map(f64::to_bits)).collect();
     match places[..] {
         [only] => vec![only],

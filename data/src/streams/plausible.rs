@@ -2,7 +2,7 @@
 //!
 //! These checks look at the whole file and say which column to rename; they never convert anything themselves.
 
-use crate::columns::Sheet;
+use crate::columns::TableSheet;
 use crate::dataset::Dataset;
 use crate::error::{DataError, Result};
 use crate::header::{P_ACT, P_BODY, P_MORE, QUANTITIES, STATION, X, Y, Z};
@@ -10,7 +10,7 @@ use crate::policy;
 use crate::units::mm;
 
 /// Refuses lengths and pressures that look like another unit.
-pub(crate) fn check_units(sheet: &Sheet, largest: &[f64; QUANTITIES.len()]) -> Result<()> {
+pub(crate) fn check_units(sheet: &TableSheet, largest: &[f64; QUANTITIES.len()]) -> Result<()> {
     let unit = |quantity: usize| sheet.unit(quantity);
     let p_act_pa = P_MORE.iter().fold(largest[P_ACT], |most, more| most.max(largest[*more]));
     let known_robot = p_act_pa > 0.0 || largest[STATION] > 0.0;
@@ -33,14 +33,14 @@ pub(crate) fn check_units(sheet: &Sheet, largest: &[f64; QUANTITIES.len()]) -> R
     Ok(())
 }
 
-fn unit_error(sheet: &Sheet, quantity: usize, largest: f64, word: &str) -> DataError {
+fn unit_error(sheet: &TableSheet, quantity: usize, largest: f64, word: &str) -> DataError {
     let (base, suffix) = (QUANTITIES[quantity].base, if word == "metres" { "m" } else { "mm" });
     let message = format!("the largest value of this column is {largest:.4}: it looks like {word}");
     let help = format!("name the column {base}_{suffix}");
     sheet.fault(quantity, message, help)
 }
 
-fn check_small_pressures(sheet: &Sheet, p_body: f64, p_act: f64) -> Result<()> {
+fn check_small_pressures(sheet: &TableSheet, p_body: f64, p_act: f64) -> Result<()> {
     let fits = |([body, act], _): &([f64; 2], &str)| p_body > 0.0 && p_act > 0.0 && p_body < *body && p_act < *act;
     // Smallest unit last.
     let units = [(policy::LIKE_PSI, "psi"), (policy::LIKE_BAR, "bar"), (policy::LIKE_MPA, "MPa")];
@@ -56,7 +56,7 @@ fn check_small_pressures(sheet: &Sheet, p_body: f64, p_act: f64) -> Result<()> {
 
 /// Refuses a table whose last marker moves to negative y when the actuator is inflated; without a header, one that was
 /// read before and is now of a planar robot.
-pub(crate) fn check_y_up(sheet: Option<&Sheet>, dataset: &Dataset) -> Result<()> {
+pub(crate) fn check_y_up(sheet: Option<&TableSheet>, dataset: &Dataset) -> Result<()> {
     let Some((exchanged, message)) = wrong_y(dataset) else { return Ok(()) };
     let down = sheet.and_then(|sheet| sheet.at[Y].as_ref()).is_some_and(|column| column.turned);
     let unit = sheet.map_or("mm", |sheet| sheet.unit(Y));

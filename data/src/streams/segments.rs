@@ -4,7 +4,7 @@ use crate::dataset::Phase;
 use crate::error::DataError;
 use crate::header::{PRESSURES, Pressures};
 use crate::policy::{tolerance_act_pa, tolerance_body_pa};
-use crate::rows::Row;
+use crate::rows::Observation;
 
 /// Whether pressures are within so many tolerances of the first.
 pub(crate) fn are_near(of: Pressures, other: Pressures, tolerances: f64) -> bool {
@@ -17,13 +17,13 @@ pub(crate) fn are_near(of: Pressures, other: Pressures, tolerances: f64) -> bool
 const MOST_SAMPLES: usize = 64;
 
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(crate) struct Sample {
+pub(crate) struct SampleSums {
     pub count: u64,
     /// Time \[s\], x, y, z \[m\] (0 of a table without z), and what the gauge read \[Pa\].
     sums: [f64; 5],
 }
 
-impl Sample {
+impl SampleSums {
     fn mean(&self, which: usize) -> f64 {
         self.sums[which] / self.count.max(1) as f64
     }
@@ -40,7 +40,7 @@ impl Sample {
         self.mean(4)
     }
 
-    pub(crate) fn add(&mut self, other: Sample) {
+    pub(crate) fn add(&mut self, other: SampleSums) {
         self.count += other.count;
         self.sums.iter_mut().zip(other.sums).for_each(|(sum, value)| *sum += value);
     }
@@ -48,10 +48,10 @@ impl Sample {
 
 /// One hold as one marker saw it.
 #[derive(Debug, Clone)]
-pub(crate) struct Segment {
+pub(crate) struct HoldSegment {
     pub phase: Phase,
     pub first_line: u64,
-    pub samples: Vec<Sample>,
+    pub samples: Vec<SampleSums>,
     pub rows: u64,
     /// The first actuator pressure and the last \[Pa\].
     pub ends_pa: [f64; 2],
@@ -62,9 +62,9 @@ pub(crate) struct Segment {
     sums_pa: Pressures,
 }
 
-impl Segment {
-    pub(super) fn new(row: &Row, line: u64) -> Segment {
-        Segment {
+impl HoldSegment {
+    pub(super) fn new(row: &Observation, line: u64) -> HoldSegment {
+        HoldSegment {
             phase: row.phase,
             first_line: line,
             samples: Vec::new(),
@@ -86,19 +86,19 @@ impl Segment {
     }
 
     pub(crate) fn first_t_s(&self) -> f64 {
-        self.samples.first().map_or(f64::INFINITY, Sample::t_s)
+        self.samples.first().map_or(f64::INFINITY, SampleSums::t_s)
     }
 
     pub(crate) fn last_t_s(&self) -> f64 {
-        self.samples.last().map_or(f64::NEG_INFINITY, Sample::t_s)
+        self.samples.last().map_or(f64::NEG_INFINITY, SampleSums::t_s)
     }
 
-    pub(super) fn continues_with(&self, row: &Row) -> bool {
+    pub(super) fn continues_with(&self, row: &Observation) -> bool {
         row.phase == self.phase && are_near(self.means_pa(), row.pressures_pa, 1.0)
     }
 
     /// Takes in a later segment of one row: a single reading that departed and came back is noise.
-    fn absorb(&mut self, one: Segment) {
+    fn absorb(&mut self, one: HoldSegment) {
         self.rows += one.rows;
         self.sums_pa.iter_mut().zip(one.sums_pa).for_each(|(sum, other)| *sum += other);
         one.samples.into_iter().for_each(|sample| self.push(sample));
@@ -107,7 +107,7 @@ impl Segment {
     }
 
     /// Takes samples out, and returns how many rows they were.
-    pub(crate) fn take_out(&mut self, is_out: impl Fn(&Sample) -> bool) -> u64 {
+    pub(crate) fn take_out(&mut self, is_out: impl Fn(&SampleSums) -> bool) -> u64 {
         let gone: u64 = self.samples.iter().filter(|sample| is_out(sample)).map(|sample| sample.count).sum();
         if gone > 0 {
             // Pressures stay what they are on average.
@@ -119,15 +119,15 @@ impl Segment {
         gone
     }
 
-    pub(super) fn add(&mut self, row: &Row) {
+    pub(super) fn add(&mut self, row: &Observation) {
         self.rows += 1;
         self.sums_pa.iter_mut().zip(row.pressures_pa).for_each(|(sum, pressure_pa)| *sum += pressure_pa);
         self.ends_pa[1] = row.pressures_pa[1];
         let [z_m, gauge_pa] = [row.z_m, row.gauge_pa].map(|value| value.unwrap_or(0.0));
-        self.push(Sample { count: 1, sums: [row.t_s, row.x_m, row.y_m, z_m, gauge_pa] });
+        self.push(SampleSums { count: 1, sums: [row.t_s, row.x_m, row.y_m, z_m, gauge_pa] });
     }
 
-    fn push(&mut self, one: Sample) {
+    fn push(&mut self, one: SampleSums) {
         match self.samples.last_mut() {
             Some(last) if last.count < self.stride => last.add(one),
             _ => self.samples.push(one),
@@ -139,8 +139,8 @@ impl Segment {
     }
 }
 
-pub(crate) fn merged(samples: &[Sample]) -> Sample {
-    let mut all = Sample::default();
+pub(crate) fn merged(samples: &[SampleSums]) -> SampleSums {
+    let mut all = SampleSums::default();
     samples.iter().for_each(|sample| all.add(*sample));
     all
 }
@@ -152,13 +152,13 @@ pub(crate) struct Stream {
     pub marker: usize,
     pub first_line: u64,
     pub first_t_s: f64,
-    pub segments: Vec<Segment>,
+    pub segments: Vec<HoldSegment>,
     pub(super) last_t_s: f64,
 }
 
 impl Stream {
     /// Puts a last segment of one row back into the one before, if this row goes on there: the reading was noise.
-    pub(super) fn take_back(&mut self, row: &Row) {
+    pub(super) fn take_back(&mut self, row: &Observation) {
         let [.., before, last] = self.segments.as_slice() else { return };
         let noise = last.rows == 1 && last.phase == before.phase && are_near(before.means_pa(), last.means_pa(), 2.0);
         if noise && before.continues_with(row) && !last.continues_with(row) {
@@ -172,19 +172,19 @@ impl Stream {
 mod tests {
     use super::*;
 
-    fn row(t_s: f64, p_act_pa: f64) -> Row<'static> {
+    fn row(t_s: f64, p_act_pa: f64) -> Observation<'static> {
         let (run, marker, phase) = ("1", "1", Phase::Load);
         let (x_m, y_m, gauge_pa) = (2.0 * t_s, -t_s, Some(3.0 * t_s));
         let (z_m, pressures_pa) = (Some(4.0 * t_s), [2000.0, p_act_pa, 0.0, 0.0, 0.0]);
-        Row { run, marker, phase, t_s, pressures_pa, x_m, y_m, z_m, station_m: None, gauge_pa }
+        Observation { run, marker, phase, t_s, pressures_pa, x_m, y_m, z_m, station_m: None, gauge_pa }
     }
 
     #[test]
     fn a_hold_ends_when_a_pressure_leaves_its_tolerance() {
-        let mut segment = Segment::new(&row(0.0, 20_000.0), 1);
+        let mut segment = HoldSegment::new(&row(0.0, 20_000.0), 1);
         segment.add(&row(0.0, 20_000.0));
         assert!(segment.continues_with(&row(1.0, 20_999.0)) && !segment.continues_with(&row(1.0, 21_001.0)));
-        segment = Segment::new(&row(0.0, 0.0), 1);
+        segment = HoldSegment::new(&row(0.0, 0.0), 1);
         segment.add(&row(0.0, 0.0));
         assert!(segment.continues_with(&row(1.0, 499.0)) && !segment.continues_with(&row(1.0, 501.0)));
         let body = |p_body_pa: f64, p_act_pa: f64| {
@@ -193,7 +193,7 @@ mod tests {
             other
         };
         assert!(segment.continues_with(&body(2199.0, 0.0)) && !segment.continues_with(&body(2201.0, 0.0)));
-        let other_phase = Row { phase: Phase::Unload, ..row(1.0, 20_000.0) };
+        let other_phase = Observation { phase: Phase::Unload, ..row(1.0, 20_000.0) };
         assert!(!segment.continues_with(&other_phase) && !segment.continues_with(&body(2201.0, 20_000.0)));
         for channel in 0..3 {
             let mut other = row(1.0, 0.0);
@@ -205,12 +205,12 @@ mod tests {
     #[test]
     fn at_most_64_samples_are_kept_and_none_is_lost() {
         for rows in [1_u64, 64, 65, 1000, 12_345] {
-            let mut segment = Segment::new(&row(0.0, 0.0), 1);
+            let mut segment = HoldSegment::new(&row(0.0, 0.0), 1);
             (0..rows).for_each(|i| segment.add(&row(i as f64, 0.0)));
             let sum = (rows * (rows - 1) / 2) as f64;
             assert!(segment.samples.len() <= MOST_SAMPLES && segment.samples.len() as u64 >= rows.min(32));
             let sums = [sum, 2.0 * sum, -sum, 4.0 * sum, 3.0 * sum];
-            assert_eq!(merged(&segment.samples), Sample { count: rows, sums });
+            assert_eq!(merged(&segment.samples), SampleSums { count: rows, sums });
             let full = &segment.samples[..segment.samples.len() - 1];
             assert!(full.iter().all(|sample| sample.count == segment.stride), "equal counts but for the last");
         }

@@ -2,14 +2,14 @@
 
 use super::load::{open_axis, part_names};
 use super::range::{Checked, Text, refuse};
-use super::raw::{Raw, RawChamber};
+use super::raw::{RawCase, RawChamber};
 use crate::FemError;
 use crate::mesh::enclose;
 use crate::mesh::file::{MeshFile, Surface};
 use toml::Spanned;
 
 /// Gives the parts of a foreign mesh the chambers of the case.
-pub(super) fn chambers(raw: &Raw, file: &mut MeshFile) -> Checked<()> {
+pub(super) fn chambers(raw: &RawCase, file: &mut MeshFile) -> Checked<()> {
     let tables: Vec<(&Text, &Spanned<RawChamber>)> = raw.chamber.iter().collect();
     for (name, table) in &tables {
         if !file.format.is_empty() {

@@ -7,7 +7,7 @@ use super::range::{
 use super::raw::RawPly;
 use crate::FemError;
 use models::Fabric;
-use models::fabrics::{self, FABRICS, Law, MATERIALS, Parameter, Recipe};
+use models::fabrics::{self, FABRICS, Law, LawParameter, MATERIALS, Recipe};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -124,7 +124,7 @@ fn law(table: &Spanned<Free>) -> Checked<(&'static Law, Recipe)> {
 }
 
 /// A number as the recipe wants it: in the unit of the key.
-fn value_of(p: &Parameter, value: &Spanned<Value>) -> Checked<f64> {
+fn value_of(p: &LawParameter, value: &Spanned<Value>) -> Checked<f64> {
     let v = plain_number(p.key, value)?;
     if p.key == "thickness_mm" {
         number(p.key, v, value.span(), &THICKNESS)?;
@@ -135,7 +135,7 @@ fn value_of(p: &Parameter, value: &Spanned<Value>) -> Checked<f64> {
 }
 
 /// What was probably meant by a number that is too large.
-fn slip(p: &Parameter) -> &'static str {
+fn slip(p: &LawParameter) -> &'static str {
     match p.unit {
         "MPa" => "this looks like pascals: write megapascals, for example 588 for 588e6 Pa",
         _ if p.key.starts_with("nu") => {

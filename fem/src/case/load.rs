@@ -4,7 +4,7 @@ use super::range::{
     ATMOSPHERE, Checked, GAP, GAUGE, LENGTH, POSITION, Range, Rows, TIME, Text, amplitude, amplitudes, at_once, choice,
     direction, optional, plain, refuse, si, unknown_name, vector,
 };
-use super::raw::{Raw, RawChamber, RawForce, RawObstacle, RawSupport};
+use super::raw::{RawCase, RawChamber, RawForce, RawObstacle, RawSupport};
 use crate::mesh::Mesh;
 use crate::problem::{
     Amplitude, Chamber, Contact, Gas, Gravity, NodalForce, Obstacle, ObstacleShape, Pressure, Rigid, Support,
@@ -38,7 +38,7 @@ const EXPONENT: Range = plain(1.0, 1.67, "1 is isothermal (slow), 1.4 adiabatic 
 const FRICTION: Range = plain(0.0, 2.0, "a Coulomb coefficient: 0 slides freely, 0.3 is usual for fabric");
 
 /// Every chamber of the mesh, with its pressure.
-pub(super) fn chambers(raw: &Raw, mesh: &Mesh) -> Checked<Vec<Chamber>> {
+pub(super) fn chambers(raw: &RawCase, mesh: &Mesh) -> Checked<Vec<Chamber>> {
     let known: BTreeSet<&str> = mesh.parts.iter().flat_map(|p| [&p.front, &p.back]).flatten().map(|c| &**c).collect();
     let list: Vec<&str> = known.iter().copied().collect();
     if let Some(name) = known.iter().find(|c| !raw.chamber.keys().any(|k| k.get_ref() == **c)) {
@@ -150,7 +150,7 @@ fn filling(table: &Spanned<RawChamber>) -> Checked<Amplitude> {
 }
 
 /// What happens in a vacuum without contact.
-pub(super) fn vacuum(raw: &Raw, chambers: &[Chamber]) -> Option<String> {
+pub(super) fn vacuum(raw: &RawCase, chambers: &[Chamber]) -> Option<String> {
     let below = |chamber: &&Chamber| lowest(chamber.pressure.filling()) < Some(0.0);
     let chamber = chambers.iter().find(below).filter(|_| raw.contact.is_none())?;
     Some(format!(
@@ -160,7 +160,7 @@ pub(super) fn vacuum(raw: &Raw, chambers: &[Chamber]) -> Option<String> {
 }
 
 /// Supports; an encastre one gets its own node set in the mesh.
-pub(super) fn supports(raw: &Raw, mesh: &mut Mesh) -> Checked<Vec<Support>> {
+pub(super) fn supports(raw: &RawCase, mesh: &mut Mesh) -> Checked<Vec<Support>> {
     raw.support.iter().map(|s| support(s, mesh)).collect()
 }
 
@@ -239,11 +239,11 @@ pub(super) fn part_names(names: &[Text], mesh: &Mesh) -> Checked<Vec<String>> {
     }
 }
 
-pub(super) fn rigid(raw: &Raw, mesh: &Mesh) -> Checked<Vec<Rigid>> {
+pub(super) fn rigid(raw: &RawCase, mesh: &Mesh) -> Checked<Vec<Rigid>> {
     raw.rigid.iter().map(|r| Ok(Rigid { set: set_name(&r.set, mesh)? })).collect()
 }
 
-pub(super) fn forces(raw: &Raw, mesh: &Mesh) -> Checked<Vec<NodalForce>> {
+pub(super) fn forces(raw: &RawCase, mesh: &Mesh) -> Checked<Vec<NodalForce>> {
     let force = |f: &RawForce| {
         Ok(NodalForce {
             set: set_name(&f.set, mesh)?,
@@ -254,7 +254,7 @@ pub(super) fn forces(raw: &Raw, mesh: &Mesh) -> Checked<Vec<NodalForce>> {
     raw.force.iter().map(force).collect()
 }
 
-pub(super) fn gravity(raw: &Raw) -> Checked<Option<Gravity>> {
+pub(super) fn gravity(raw: &RawCase) -> Checked<Option<Gravity>> {
     let Some(g) = &raw.gravity else { return Ok(None) };
     Ok(Some(Gravity {
         g_m_s2: vector("g_m_s2", &g.g_m_s2, &ACCELERATION)?,
@@ -262,7 +262,7 @@ pub(super) fn gravity(raw: &Raw) -> Checked<Option<Gravity>> {
     }))
 }
 
-pub(super) fn obstacles(raw: &Raw) -> Checked<Vec<Obstacle>> {
+pub(super) fn obstacles(raw: &RawCase) -> Checked<Vec<Obstacle>> {
     raw.obstacle.iter().map(obstacle).collect()
 }
 
@@ -288,7 +288,7 @@ fn obstacle(table: &Spanned<RawObstacle>) -> Checked<Obstacle> {
     Ok(Obstacle { shape, friction, motion: motion(&raw.smooth_s_mm, &raw.linear_s_mm)? })
 }
 
-pub(super) fn contact(raw: &Raw, mesh: &Mesh) -> Checked<Option<Contact>> {
+pub(super) fn contact(raw: &RawCase, mesh: &Mesh) -> Checked<Option<Contact>> {
     let (Some(c), usual) = (&raw.contact, Contact::default()) else { return Ok(None) };
     Ok(Some(Contact {
         friction: optional("friction", &c.friction, &FRICTION)?.unwrap_or(usual.friction),

@@ -40,11 +40,11 @@ pub struct GeneratorKey {
     /// Meaning in a few words, for documents and messages.
     pub meaning: &'static str,
     #[serde(skip)]
-    kind: Kind,
+    kind: ParameterKind,
 }
 
 #[derive(Debug, Clone, Copy)]
-enum Kind {
+enum ParameterKind {
     Length,
     Gap,
     Angle,
@@ -59,24 +59,24 @@ const OPENING: Range = Range { low: 0.0, high: 100.0, too_small: "0 starts flat"
 const CAPS: [Cap; 3] = [Cap::Triangles, Cap::Quads, Cap::Open];
 
 const fn length(key: &'static str, meaning: &'static str) -> GeneratorKey {
-    GeneratorKey { key, default: None, meaning, kind: Kind::Length }
+    GeneratorKey { key, default: None, meaning, kind: ParameterKind::Length }
 }
 
 const fn count(key: &'static str, meaning: &'static str) -> GeneratorKey {
-    GeneratorKey { key, default: None, meaning, kind: Kind::Count }
+    GeneratorKey { key, default: None, meaning, kind: ParameterKind::Count }
 }
 
 const fn cap(key: &'static str, meaning: &'static str) -> GeneratorKey {
-    optional(key, Kind::Word(&["triangles", "quads", "open"]), meaning)
+    optional(key, ParameterKind::Word(&["triangles", "quads", "open"]), meaning)
 }
 
-const fn optional(key: &'static str, kind: Kind, meaning: &'static str) -> GeneratorKey {
+const fn optional(key: &'static str, kind: ParameterKind, meaning: &'static str) -> GeneratorKey {
     GeneratorKey { key, default: Some(0.0), meaning, kind }
 }
 
-const GAP: GeneratorKey = optional("gap_mm", Kind::Gap, "distance of the two layers at the start");
+const GAP: GeneratorKey = optional("gap_mm", ParameterKind::Gap, "distance of the two layers at the start");
 const WARP: GeneratorKey =
-    optional("warp_deg", Kind::Angle, "angle of the warp to the axis, counter-clockwise seen from outside");
+    optional("warp_deg", ParameterKind::Angle, "angle of the warp to the axis, counter-clockwise seen from outside");
 
 /// Mesh generators that cases may name, each with its keys.
 #[rustfmt::skip]
@@ -315,18 +315,18 @@ fn value(table: &Spanned<Free>, key: &GeneratorKey) -> Checked<f64> {
         }
     };
     match key.kind {
-        Kind::Length => number(key.key, v, span, &LENGTH),
-        Kind::Gap => number(key.key, v, span, &OPENING),
-        Kind::Angle => number(key.key, v, span, &ANGLE),
-        Kind::Count if v.fract() == 0.0 => number(key.key, v, span, &COUNT),
-        Kind::Count => refuse(format!("{} must be a whole number, not {v}", key.key), key.meaning, span),
-        Kind::Word(_) => Ok(v),
+        ParameterKind::Length => number(key.key, v, span, &LENGTH),
+        ParameterKind::Gap => number(key.key, v, span, &OPENING),
+        ParameterKind::Angle => number(key.key, v, span, &ANGLE),
+        ParameterKind::Count if v.fract() == 0.0 => number(key.key, v, span, &COUNT),
+        ParameterKind::Count => refuse(format!("{} must be a whole number, not {v}", key.key), key.meaning, span),
+        ParameterKind::Word(_) => Ok(v),
     }
 }
 
 /// A value as typed: a number, or the position of a word.
 fn typed(key: &GeneratorKey, value: &Spanned<Value>) -> Checked<f64> {
-    let Kind::Word(words) = key.kind else { return plain_number(key.key, value) };
+    let ParameterKind::Word(words) = key.kind else { return plain_number(key.key, value) };
     let word = value.get_ref().as_str().unwrap_or_default();
     match words.iter().position(|w| *w == word) {
         Some(at) => Ok(at as f64),

@@ -16,7 +16,7 @@ mod settings;
 pub(crate) use load::encastre;
 pub(crate) use mesh::ReadMesh;
 pub use mesh::{GENERATORS, GeneratorKey, MeshGenerator};
-pub use range::Key;
+pub use range::DeclaredKey;
 pub use settings::Outputs;
 
 use crate::mesh::file::MeshFile;

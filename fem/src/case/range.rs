@@ -210,7 +210,7 @@ pub(crate) fn unknown(what: &str, wrong: &str, known: &[&str]) -> String {
 
 /// One number of a table that describes an `S`.
 #[derive(Debug)]
-pub struct Key<S: 'static> {
+pub struct DeclaredKey<S: 'static> {
     /// Name with unit, as in the file.
     pub name: &'static str,
     /// Factor from the file to SI.
@@ -232,11 +232,11 @@ pub(crate) const fn key<S>(
     meaning: &'static str,
     get: fn(&S) -> Option<f64>,
     set: fn(&mut S, f64),
-) -> Key<S> {
-    Key { name, si, bounds, meaning, get, set }
+) -> DeclaredKey<S> {
+    DeclaredKey { name, si, bounds, meaning, get, set }
 }
 
-impl<S> Key<S> {
+impl<S> DeclaredKey<S> {
     pub(crate) fn read(&self, to: &mut S, value: &Spanned<Value>) -> Checked<()> {
         let [low, high] = self.bounds;
         let range = Range { si: self.si, ..plain(low, high, self.meaning) };
@@ -256,7 +256,7 @@ impl<S> Key<S> {
     }
 }
 
-pub(crate) fn named<S>(keys: &'static [Key<S>], name: &str) -> Option<&'static Key<S>> {
+pub(crate) fn named<S>(keys: &'static [DeclaredKey<S>], name: &str) -> Option<&'static DeclaredKey<S>> {
     keys.iter().find(|key| key.name == name)
 }
 

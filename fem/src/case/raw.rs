@@ -9,7 +9,7 @@ use toml::Spanned;
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Raw {
+pub(super) struct RawCase {
     pub kind: Text,
     #[serde(default)]
     pub name: String,
@@ -152,7 +152,7 @@ pub(super) struct RawOutput {
 }
 
 /// Reads the text; a TOML or type error keeps its place.
-pub(super) fn read(text: &str) -> Checked<Raw> {
+pub(super) fn read(text: &str) -> Checked<RawCase> {
     toml::from_str(text).map_err(|error| {
         let first = error.message().lines().next().unwrap_or("not valid TOML");
         FemError::Case { message: explain(first), span: error.span() }

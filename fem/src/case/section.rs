@@ -4,7 +4,7 @@ use super::law::{self, Fabrics};
 use super::range::{
     ANGLE, Checked, DENSITY, Num, Range, Text, at_once, direction, optional, plain, refuse, si, unknown_name,
 };
-use super::raw::{Raw, RawPart};
+use super::raw::{RawCase, RawPart};
 use crate::mesh::{Mesh, Part};
 use crate::problem::start::{has_directions, warp_fault};
 use crate::problem::{Ply, Section};
@@ -18,7 +18,7 @@ const ALL: &str = "all";
 const BENDING: Range = plain(0.0, 10.0, "1 is a solid film, 0.1 coated woven fabric, 0 a membrane");
 
 /// Forgets the warp that the mesh has where the case has another.
-pub(super) fn forget_warps(raw: &Raw, mesh: &mut Mesh) {
+pub(super) fn forget_warps(raw: &RawCase, mesh: &mut Mesh) {
     let replaced = |part: &&mut Part| entry(raw, part).is_ok_and(|table| table.get_ref().warp.is_some());
     for part in mesh.parts.iter_mut().filter(replaced) {
         part.warp.clear();
@@ -26,7 +26,7 @@ pub(super) fn forget_warps(raw: &Raw, mesh: &mut Mesh) {
 }
 
 /// One section per part of the mesh, in its order; parts get their warp. `unread`: orientations of the mesh file that were not understood.
-pub(super) fn sections(raw: &Raw, mesh: &mut Mesh, unread: &[(String, String)]) -> Checked<Vec<Section>> {
+pub(super) fn sections(raw: &RawCase, mesh: &mut Mesh, unread: &[(String, String)]) -> Checked<Vec<Section>> {
     let fabrics = law::fabrics(&raw.fabric)?;
     let mut known: Vec<&str> = mesh.part_names();
     known.push(ALL);
@@ -82,7 +82,7 @@ fn direction_of(value: &Spanned<Value>) -> Checked<V3> {
     refuse(message, help, value.span())
 }
 
-fn entry<'a>(raw: &'a Raw, part: &Part) -> Checked<&'a Spanned<RawPart>> {
+fn entry<'a>(raw: &'a RawCase, part: &Part) -> Checked<&'a Spanned<RawPart>> {
     let named = |wanted: &str| raw.part.iter().find(|(name, _)| name.get_ref() == wanted).map(|(_, table)| table);
     match named(&part.name).or_else(|| named(ALL)) {
         Some(table) => Ok(table),

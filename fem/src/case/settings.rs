@@ -5,7 +5,7 @@ use super::range::{
     Checked, Free, POSITION, Range, at_once, choice, direction, find, number, plain, refuse, si, switch, text,
     unknown_name,
 };
-use super::range::{Key, key, named};
+use super::range::{DeclaredKey, key, named};
 use super::raw::RawOutput;
 use crate::mesh::Mesh;
 use crate::output::picture::Viewpoint;
@@ -15,7 +15,7 @@ use toml::{Spanned, Value};
 
 /// Numbers of `[settings]`, each with bounds and meaning.
 #[rustfmt::skip]
-pub(super) const NUMBERS: &[Key<Settings>] = &[
+pub(super) const NUMBERS: &[DeclaredKey<Settings>] = &[
     key("end_s", 1.0, [1e-6, 1000.0], "a run needs some time, in seconds; 1.1 is the paper's", |s| Some(s.end_s), |s, v| s.end_s = v),
     key("cfl", 1.0, [0.01, 1.0], "0.9 is usual, 0.7 where fabric strains exceed 10 %", |s| Some(s.cfl), |s, v| s.cfl = v),
     key("dt_s", 1.0, [1e-10, 0.01], "leave it out: the program finds the stable step, usually some microseconds",

@@ -7,14 +7,14 @@
 use pulp::Simd;
 
 use super::pack::rows;
-use super::surface::{NONE, Surface};
+use super::surface::{ContactSurface, NONE};
 use crate::sheet::group::{LANES, Lane};
 use crate::sheet::lanes::{V, axes, inner, product};
 use crate::vec3::Nodes;
 
 /// A question: how far is this node from this element?
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Question {
+pub(super) struct DistanceQuestion {
     /// Record and candidate, positions in the chunk.
     pub record: u32,
     pub candidate: u32,
@@ -24,9 +24,9 @@ pub(super) struct Question {
 
 /// All questions of a look, and room for the squares of the distances \[m²\].
 pub(super) struct Questions<'a> {
-    pub surface: &'a Surface,
+    pub surface: &'a ContactSurface,
     pub x: &'a [[f64; 4]],
-    pub asked: &'a [Question],
+    pub asked: &'a [DistanceQuestion],
     pub(crate) square_m2: &'a mut Vec<Lane>,
 }
 
@@ -100,7 +100,7 @@ mod tests {
     #[test]
     fn eight_distances_at_once_are_those_of_one_after_the_other() {
         let mut noise = Noise(3);
-        let mut surface = Surface::default();
+        let mut surface = ContactSurface::default();
         let mut x = Vec::new();
         let mut asked = Vec::new();
         for i in 0..1003_u32 {
@@ -112,7 +112,7 @@ mod tests {
             let far = noise.point(2.0);
             (0..3).for_each(|k| x[5 * i as usize + 4][k] += far[k]);
             surface.elements.push(quad);
-            asked.push(Question { record: 0, candidate: 0, node: 5 * i + 4, element: i });
+            asked.push(DistanceQuestion { record: 0, candidate: 0, node: 5 * i + 4, element: i });
         }
         let mut square_m2 = Vec::new();
         let questions = Questions { surface: &surface, x: &x, asked: &asked, square_m2: &mut square_m2 };

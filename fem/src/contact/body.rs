@@ -1,22 +1,22 @@
 //! Layers, the memory of pairs, and the search for pairs that may touch.
 
-use super::build::{self, Memory, Penalty};
+use super::build::{self, Penalty, PreviousRecords};
 use super::chunk::Chunk;
 use super::follow::Searched;
 use super::passed::Passed;
-use super::press::Sums;
-use super::record::{Reach, Record, Step};
+use super::press::ContactEnergies;
+use super::record::{ContactReach, ContactStep, Record};
 use super::search;
-use super::surface::{self, Surface};
+use super::surface::{self, ContactSurface};
 use crate::vec3::Nodes;
 use rayon::prelude::*;
 
 /// Contact between the layers of a mesh.
 #[derive(Debug, Clone, Default)]
-pub struct Contact {
-    pub(super) surface: Surface,
+pub struct LayerContact {
+    pub(super) surface: ContactSurface,
     pub(super) penalty: Penalty,
-    pub(super) reach: Reach,
+    pub(super) reach: ContactReach,
     pub(super) friction: f64,
     pub(super) arch: pulp::Arch,
     pub(super) chunks: Vec<Chunk>,
@@ -24,18 +24,18 @@ pub struct Contact {
     /// Positions one step before; empty before the first step.
     pub(super) before_m: Vec<[f64; 4]>,
     pub(super) now_m: Vec<[f64; 4]>,
-    pub(super) sums: Sums,
+    pub(super) sums: ContactEnergies,
     pub(super) passed: Passed,
 }
 
-impl Contact {
+impl LayerContact {
     pub(super) fn near(&self) -> impl Iterator<Item = &Record> {
         self.chunks.iter().flat_map(|chunk| chunk.near.iter().map(|at| &chunk.records[*at as usize]))
     }
 
-    pub(super) fn step_of<'a>(&'a self, x: &'a Nodes, dt_s: f64) -> Step<'a> {
+    pub(super) fn step_of<'a>(&'a self, x: &'a Nodes, dt_s: f64) -> ContactStep<'a> {
         let before = if self.before_m.is_empty() { x } else { &self.before_m };
-        Step {
+        ContactStep {
             arch: self.arch,
             surface: &self.surface,
             x,
@@ -55,7 +55,7 @@ impl Contact {
             chunk.close(arch, x);
         });
         let clear_m = if self.searched.times == 0 { f64::NEG_INFINITY } else { self.reach.side_m };
-        let old = Memory::new(std::mem::take(&mut self.chunks), x.len(), clear_m);
+        let old = PreviousRecords::new(std::mem::take(&mut self.chunks), x.len(), clear_m);
         let (chunks, lost) = build::chunks(&self.surface, &pairs, &old, &self.penalty);
         self.sums.friction += lost;
         self.chunks = chunks;

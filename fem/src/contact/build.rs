@@ -3,9 +3,9 @@
 
 use rayon::prelude::*;
 
-use super::chunk::{Candidate, Chunk, RECORDS};
+use super::chunk::{Chunk, ContactCandidate, RECORDS};
 use super::record::Record;
-use super::surface::{NONE, Surface};
+use super::surface::{ContactSurface, NONE};
 
 /// Candidates that close a chunk, so that chunks stay small on very fine meshes.
 const CANDIDATES: usize = 4096;
@@ -23,11 +23,19 @@ pub(super) struct Penalty {
 
 /// Chunks of records for `pairs` (grouped by node); `old` are the records so far. The second result is the energy
 /// of elastic slides that were dropped \[J\].
-pub(super) fn chunks(surface: &Surface, pairs: &[(u32, u32)], old: &Memory, penalty: &Penalty) -> (Vec<Chunk>, f64) {
+pub(super) fn chunks(
+    surface: &ContactSurface,
+    pairs: &[(u32, u32)],
+    old: &PreviousRecords,
+    penalty: &Penalty,
+) -> (Vec<Chunk>, f64) {
     let mut gone: Vec<bool> = vec![true; old.place.len()];
     pairs.iter().for_each(|(node, _)| gone[*node as usize] = false);
-    let room =
-        || Work { place: vec![0; surface.elements.len()], corner: vec![(0, 0); old.place.len()], ..Work::default() };
+    let room = || SortedCandidates {
+        place: vec![0; surface.elements.len()],
+        corner: vec![(0, 0); old.place.len()],
+        ..SortedCandidates::default()
+    };
     let pieces =
         pieces(pairs).into_par_iter().map_init(room, |work, pairs| some_chunks(surface, pairs, old, penalty, work));
     let (mut all, mut lost) = (Vec::new(), old.slides_j(&gone));
@@ -55,11 +63,11 @@ fn pieces(mut pairs: &[(u32, u32)]) -> Vec<&[(u32, u32)]> {
 }
 
 fn some_chunks(
-    surface: &Surface,
+    surface: &ContactSurface,
     pairs: &[(u32, u32)],
-    old: &Memory,
+    old: &PreviousRecords,
     penalty: &Penalty,
-    work: &mut Work,
+    work: &mut SortedCandidates,
 ) -> (Vec<Chunk>, f64) {
     let mut chunks = vec![Chunk::default()];
     let mut lost = 0.0;
@@ -87,7 +95,7 @@ fn some_chunks(
 }
 
 /// Records before a search, and their candidates.
-pub(super) struct Memory {
+pub(super) struct PreviousRecords {
     chunks: Vec<Chunk>,
     /// Chunk, first record and number of records of every node.
     place: Vec<[u32; 3]>,
@@ -95,9 +103,9 @@ pub(super) struct Memory {
     clear_m: f64,
 }
 
-impl Memory {
+impl PreviousRecords {
     /// Records of chunks whose way was closed, for so many nodes.
-    pub(super) fn new(chunks: Vec<Chunk>, nodes: usize, clear_m: f64) -> Memory {
+    pub(super) fn new(chunks: Vec<Chunk>, nodes: usize, clear_m: f64) -> PreviousRecords {
         let mut place = vec![[0; 3]; nodes];
         for (c, chunk) in chunks.iter().enumerate() {
             for (i, record) in chunk.records.iter().enumerate() {
@@ -105,11 +113,11 @@ impl Memory {
                 *place = [c as u32, if place[2] == 0 { i as u32 } else { place[1] }, place[2] + 1];
             }
         }
-        Memory { chunks, place, clear_m }
+        PreviousRecords { chunks, place, clear_m }
     }
 
     /// Records of a node, and the candidates of its chunk.
-    fn of(&self, node: u32) -> (&[Record], &[Candidate]) {
+    fn of(&self, node: u32) -> (&[Record], &[ContactCandidate]) {
         let [chunk, first, count] = self.place[node as usize].map(|i| i as usize);
         match self.chunks.get(chunk) {
             Some(chunk) => (&chunk.records[first..first + count], &chunk.candidates),
@@ -126,12 +134,12 @@ impl Memory {
 
 /// The candidates of one node, sorted into connected pieces.
 #[derive(Default)]
-struct Work {
+struct SortedCandidates {
     elements: Vec<u32>,
     piece: Vec<u32>,
     pieces: u32,
     made: Vec<Record>,
-    /// The remembered record that had each element, [`NONE`] for a new one, and [`Candidate::clear_m`] there.
+    /// The remembered record that had each element, [`NONE`] for a new one, and [`ContactCandidate::clear_m`] there.
     from: Vec<u32>,
     clear_m: Vec<f64>,
     layers: Vec<u32>,
@@ -142,14 +150,14 @@ struct Work {
     stamp: u32,
 }
 
-impl Work {
+impl SortedCandidates {
     fn find(&self, element: u32) -> Option<usize> {
         let at = self.place[element as usize] as usize;
         self.elements.get(at).is_some_and(|e| *e == element).then_some(at)
     }
 
     /// Lists the elements of a node with their records; true if the search before had the same, whose pieces are then the records.
-    fn are_known(&mut self, group: &[(u32, u32)], remembered: &[Record], candidates: &[Candidate]) -> bool {
+    fn are_known(&mut self, group: &[(u32, u32)], remembered: &[Record], candidates: &[ContactCandidate]) -> bool {
         self.elements.clear();
         self.elements.extend(group.iter().map(|p| p.1));
         for (at, element) in self.elements.iter().enumerate() {
@@ -173,7 +181,7 @@ impl Work {
 
     /// Numbers connected pieces; elements of one layer that share a corner are connected. Each first has its own number, then the
     /// least one among those connected with it.
-    fn split(&mut self, surface: &Surface) {
+    fn split(&mut self, surface: &ContactSurface) {
         let count = self.elements.len() as u32;
         self.piece.clear();
         self.piece.extend(0..count);
@@ -207,7 +215,7 @@ impl Work {
     }
 
     /// One record per piece, with what was remembered; returns the slide energy of what was dropped.
-    fn records(&mut self, surface: &Surface, node: u32, remembered: &[Record], penalty: &Penalty) -> f64 {
+    fn records(&mut self, surface: &ContactSurface, node: u32, remembered: &[Record], penalty: &Penalty) -> f64 {
         self.made.clear();
         let own_kg = Some(penalty.mass_kg[node as usize]).filter(|m| *m > 0.0).unwrap_or(f64::INFINITY);
         let mut lost = 0.0;
@@ -258,7 +266,9 @@ impl Work {
         for (piece, record) in self.made.iter().enumerate() {
             let first = chunk.candidates.len() as u32;
             let members = (0..self.elements.len()).filter(|i| self.piece[*i] as usize == piece);
-            chunk.candidates.extend(members.map(|i| Candidate { element: self.elements[i], clear_m: self.clear_m[i] }));
+            chunk
+                .candidates
+                .extend(members.map(|i| ContactCandidate { element: self.elements[i], clear_m: self.clear_m[i] }));
             chunk.records.push(Record { first, count: chunk.candidates.len() as u32 - first, ..*record });
         }
     }
@@ -303,8 +313,8 @@ mod tests {
     #[test]
     fn pieces_are_those_that_joining_every_two_elements_with_a_corner_finds() {
         let mut noise = Noise(9);
-        let mut surface = Surface::default();
-        let mut work = Work { corner: vec![(0, 0); 64], ..Work::default() };
+        let mut surface = ContactSurface::default();
+        let mut work = SortedCandidates { corner: vec![(0, 0); 64], ..SortedCandidates::default() };
         for number in 0..200_u32 {
             let node = |share: f64| ((share + 1.0) * 32.0) as u32 % 64;
             let [a, b, c] = noise.point(1.0).map(node);

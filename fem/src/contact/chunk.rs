@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
-use super::ask::{Question, Questions};
+use super::ask::{DistanceQuestion, Questions};
 use super::closest::{Closest, Feature, describe, nearest};
 use super::pack::{Pack, Touches};
-use super::press::{Push, Sums, press_lane, press_round, push};
-use super::record::{Record, Step, Touch};
-use super::surface::Surface;
+use super::press::{ContactEnergies, PairForce, press_lane, press_round, push};
+use super::record::{ContactStep, Record, Touch};
+use super::surface::ContactSurface;
 use crate::sheet::group::{LANES, Lane};
 use crate::vec3::{Nodes, V3, along, cross, dot, node, norm, scale, sub};
 
@@ -17,7 +17,7 @@ pub(super) const RECORDS: usize = 64;
 const EARLY: f64 = 0.3;
 
 #[derive(Debug, Clone, Copy, Default, serde::Serialize, serde::Deserialize)]
-pub(super) struct Candidate {
+pub(super) struct ContactCandidate {
     pub element: u32,
     /// Distance when it was measured, plus the way of the chunk then; this less the way now is a lower bound.
     pub(crate) clear_m: f64,
@@ -27,7 +27,7 @@ pub(super) struct Candidate {
 #[derive(Debug, Clone, Default, serde::Serialize, serde::Deserialize)]
 pub(super) struct Chunk {
     pub records: Vec<Record>,
-    pub candidates: Vec<Candidate>,
+    pub candidates: Vec<ContactCandidate>,
     /// Nodes of the records and of their candidates.
     #[serde(skip)]
     pub nodes: Vec<u32>,
@@ -49,14 +49,14 @@ pub(super) struct Chunk {
     /// Path of the fastest node at which the motion must be measured again.
     pub(crate) due_m: f64,
     #[serde(skip)]
-    pub pushes: Vec<Push>,
+    pub pushes: Vec<PairForce>,
     #[serde(skip)]
-    pub sums: Sums,
+    pub sums: ContactEnergies,
     /// Nodes that looks of the step found on the wrong side of an element.
     #[serde(skip)]
     pub passed: Vec<(u32, u32)>,
     #[serde(skip)]
-    pub asked: Vec<Question>,
+    pub asked: Vec<DistanceQuestion>,
     #[serde(skip)]
     pub(crate) square_m2: Vec<Lane>,
     /// Records that were asked about, and the closest element of each.
@@ -76,7 +76,7 @@ impl Chunk {
     }
 
     /// Lists the nodes, each once; `mark` holds a number for every node, and no two chunks leave the same there.
-    pub(super) fn list(&mut self, surface: &Surface, chunk: u32, mark: &mut [u32]) {
+    pub(super) fn list(&mut self, surface: &ContactSurface, chunk: u32, mark: &mut [u32]) {
         self.nodes.clear();
         let corners = self.candidates.iter().flat_map(|c| surface.corners(c.element as usize));
         for n in self.records.iter().map(|r| &r.node).chain(corners) {
@@ -94,14 +94,14 @@ impl Chunk {
     }
 
     /// One step: looks again if nodes moved too far, then adds up the forces of the near records.
-    pub(super) fn step(&mut self, step: &Step) {
-        self.sums = Sums::default();
+    pub(super) fn step(&mut self, step: &ContactStep) {
+        self.sums = ContactEnergies::default();
         self.pushes.clear();
         if step.path_m >= self.due_m {
             self.look_if_due(step);
         }
         if !self.packs.is_empty() {
-            step.arch.dispatch(Pass { chunk: self, step });
+            step.arch.dispatch(ContactPass { chunk: self, step });
         }
         for at in &self.near[self.faces as usize..] {
             let record = &mut self.records[*at as usize];
@@ -119,7 +119,7 @@ impl Chunk {
         if self.span.end <= first || last <= self.span.start {
             return;
         }
-        for Push { nodes: [p, a, b, c], weights, force_n } in &self.pushes {
+        for PairForce { nodes: [p, a, b, c], weights, force_n } in &self.pushes {
             for (node, weight) in [(p, 1.0), (a, -weights[0]), (b, -weights[1]), (c, -weights[2])] {
                 // A node before the first wraps round to beyond the last.
                 if let Some(force) = force.get_mut(node.wrapping_sub(first) as usize) {
@@ -161,7 +161,7 @@ impl Chunk {
     }
 
     /// Measures how far nodes moved against each other and looks, or puts the next measurement off.
-    fn look_if_due(&mut self, step: &Step) {
+    fn look_if_due(&mut self, step: &ContactStep) {
         let moved_m = if self.seen_m.is_empty() { 0.0 } else { self.parted_m(step.arch, step.x) };
         let left_m = self.next_m - (self.way_m + moved_m);
         if left_m > 0.05 * step.reach.slack_m {
@@ -179,7 +179,7 @@ impl Chunk {
     }
 
     /// Finds the closest feature of the records that are due, or nearly, and the records that may touch soon.
-    pub(super) fn look(&mut self, step: &Step) {
+    pub(super) fn look(&mut self, step: &ContactStep) {
         self.unload();
         self.ask(step, self.way_m + EARLY * step.reach.slack_m);
         for &(at, element) in &self.chosen {
@@ -210,7 +210,7 @@ impl Chunk {
 
     /// Measures the distances of the records that are due by `ripe_m` from candidates that may be the closest: the closest
     /// cannot have moved farther off than the way since the last look.
-    fn ask(&mut self, step: &Step, ripe_m: f64) {
+    fn ask(&mut self, step: &ContactStep, ripe_m: f64) {
         self.asked.clear();
         for (at, record) in self.records.iter().enumerate() {
             // Not a number is due, too.
@@ -219,11 +219,11 @@ impl Chunk {
             }
             let limit_m = record.within_m + self.way_m;
             for candidate in record.first..record.first + record.count {
-                let Candidate { element, clear_m } = self.candidates[candidate as usize];
+                let ContactCandidate { element, clear_m } = self.candidates[candidate as usize];
                 if clear_m - self.way_m > limit_m * (1.0 + 1e-9) {
                     continue;
                 }
-                self.asked.push(Question { record: at as u32, candidate, node: record.node, element });
+                self.asked.push(DistanceQuestion { record: at as u32, candidate, node: record.node, element });
             }
         }
         let questions =
@@ -239,7 +239,7 @@ impl Chunk {
     }
 
     /// The closest feature of every record at the positions of a step: its position in the chunk, and the feature.
-    pub(super) fn all(&mut self, step: &Step) -> Vec<(usize, Closest)> {
+    pub(super) fn all(&mut self, step: &ContactStep) -> Vec<(usize, Closest)> {
         self.ask(step, f64::INFINITY);
         let found = |&(at, element): &(u32, u32)| {
             let node = self.records[at as usize].node;
@@ -250,7 +250,7 @@ impl Chunk {
 }
 
 /// The closest of one record's candidates; the first wins a tie.
-fn choose(own: &[Question], squares: &[f64], candidates: &mut [Candidate], way_m: f64) -> u32 {
+fn choose(own: &[DistanceQuestion], squares: &[f64], candidates: &mut [ContactCandidate], way_m: f64) -> u32 {
     let (mut element, mut least_m2) = (own[0].element, f64::INFINITY);
     for (question, square_m2) in own.iter().zip(squares) {
         candidates[question.candidate as usize].clear_m = square_m2.sqrt() + way_m;
@@ -261,14 +261,14 @@ fn choose(own: &[Question], squares: &[f64], candidates: &mut [Candidate], way_m
     element
 }
 
-fn closest(step: &Step, node: u32, element: u32) -> Closest {
+fn closest(step: &ContactStep, node: u32, element: u32) -> Closest {
     let p = crate::vec3::node(step.x, node as usize);
     let now = nearest(step.surface, step.x, p, element);
     describe(step.surface, step.x, p, element, &now, step.reach.flat_m)
 }
 
 /// Takes the closest feature of one record over; true if the node came through it.
-fn look_at(record: &mut Record, element: u32, step: &Step, sums: &mut Sums) -> bool {
+fn look_at(record: &mut Record, element: u32, step: &ContactStep, sums: &mut ContactEnergies) -> bool {
     let found = closest(step, record.node, element);
     let passed = record.has_passed(&found, &step.reach);
     let held = (record.side, record.slide_j());
@@ -347,12 +347,12 @@ impl pulp::WithSimd for Parted<'_> {
 }
 
 /// The packs of a chunk in one step.
-struct Pass<'a, 'b> {
+struct ContactPass<'a, 'b> {
     chunk: &'a mut Chunk,
-    step: &'a Step<'b>,
+    step: &'a ContactStep<'b>,
 }
 
-impl pulp::WithSimd for Pass<'_, '_> {
+impl pulp::WithSimd for ContactPass<'_, '_> {
     type Output = ();
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, simd: S) {

@@ -1,6 +1,6 @@
 //! Closest points on elements, and which feature (face, edge, corner) they lie on.
 
-use super::surface::{NONE, Surface};
+use super::surface::{ContactSurface, NONE};
 use crate::vec3::{Nodes, V3, add, along, cross, dot, node, norm, scale, sub, unit};
 
 /// Where on an element the closest point is, and how the distance from it is measured until the next look.
@@ -81,7 +81,7 @@ pub(super) struct Nearest {
 
 /// Nearest point of an element; the first half of a quad wins a tie.
 #[inline]
-pub(super) fn nearest(surface: &Surface, x: &Nodes, p: V3, element: u32) -> Nearest {
+pub(super) fn nearest(surface: &ContactSurface, x: &Nodes, p: V3, element: u32) -> Nearest {
     let nodes = &surface.elements[element as usize];
     let halves = if nodes[3] == NONE { 1 } else { 2 };
     let mut best = Nearest { square_m2: f64::INFINITY, half: 0, weights: [0.0; 3] };
@@ -98,7 +98,14 @@ pub(super) fn nearest(surface: &Surface, x: &Nodes, p: V3, element: u32) -> Near
 }
 
 /// Turns a nearest point into a feature. Within `flat_m` of a face its plane is used: there the surface is nearly flat.
-pub(super) fn describe(surface: &Surface, x: &Nodes, p: V3, element: u32, nearest: &Nearest, flat_m: f64) -> Closest {
+pub(super) fn describe(
+    surface: &ContactSurface,
+    x: &Nodes,
+    p: V3,
+    element: u32,
+    nearest: &Nearest,
+    flat_m: f64,
+) -> Closest {
     let Nearest { square_m2, half, weights: w } = *nearest;
     let nodes = &surface.elements[element as usize];
     let triangle = TRIANGLES[half];
@@ -135,7 +142,7 @@ pub(super) fn describe(surface: &Surface, x: &Nodes, p: V3, element: u32, neares
 }
 
 /// Unit normal of an element at its middle.
-pub(super) fn element_normal(surface: &Surface, x: &Nodes, element: u32) -> V3 {
+pub(super) fn element_normal(surface: &ContactSurface, x: &Nodes, element: u32) -> V3 {
     let nodes = &surface.elements[element as usize];
     let at = |k: usize| node(x, nodes[k] as usize);
     let (d, e) =
@@ -149,7 +156,7 @@ pub(super) fn blend(w: V3, a: V3, b: V3, c: V3) -> V3 {
 }
 
 /// Sum of the normals on both sides of an edge, and whether there is only one side.
-fn edge_normal(surface: &Surface, x: &Nodes, element: u32, edge: [u8; 2], own: V3) -> (V3, bool) {
+fn edge_normal(surface: &ContactSurface, x: &Nodes, element: u32, edge: [u8; 2], own: V3) -> (V3, bool) {
     let count = surface.corners(element as usize).len() as u8;
     let side = if (edge[0] + 1) % count == edge[1] {
         edge[0]
@@ -165,7 +172,7 @@ fn edge_normal(surface: &Surface, x: &Nodes, element: u32, edge: [u8; 2], own: V
 }
 
 /// Sum of the normals around a corner within the layer, and whether the layer ends there.
-fn corner_normal(surface: &Surface, x: &Nodes, element: u32, corner: u8) -> (V3, bool) {
+fn corner_normal(surface: &ContactSurface, x: &Nodes, element: u32, corner: u8) -> (V3, bool) {
     let layer = surface.layer[element as usize];
     let centre = surface.elements[element as usize][corner as usize];
     let (mut sum, mut rim) = ([0.0; 3], false);

@@ -12,22 +12,22 @@ const PIECE: usize = 4096;
 /// Largest distance between positions and those one step before; `copy` becomes the positions.
 pub(super) fn follow(arch: pulp::Arch, x: &Nodes, before: &Nodes, copy: &mut Nodes) -> f64 {
     let square = if x.len() <= PIECE {
-        arch.dispatch(Piece { x, before, copy })
+        arch.dispatch(PositionPiece { x, before, copy })
     } else {
         let piece = x.len().div_ceil(x.len().div_ceil(PIECE));
         let pieces = x.par_chunks(piece).zip(before.par_chunks(piece)).zip(copy.par_chunks_mut(piece));
-        pieces.map(|((x, before), copy)| arch.dispatch(Piece { x, before, copy })).reduce(|| 0.0, f64::max)
+        pieces.map(|((x, before), copy)| arch.dispatch(PositionPiece { x, before, copy })).reduce(|| 0.0, f64::max)
     };
     square.sqrt()
 }
 
-struct Piece<'a> {
+struct PositionPiece<'a> {
     x: &'a [[f64; 4]],
     before: &'a [[f64; 4]],
     copy: &'a mut [[f64; 4]],
 }
 
-impl pulp::WithSimd for Piece<'_> {
+impl pulp::WithSimd for PositionPiece<'_> {
     type Output = f64;
 
     #[inline(always)]

@@ -59,15 +59,15 @@ use crate::transient::{dissipated, stored};
 use crate::vec3::{Nodes, dot, norm, padded, scale, share};
 use crate::{FemError, Mesh, Result};
 use crate::{Tick, Transient};
-pub use body::Contact;
+pub use body::LayerContact;
 use build::Penalty;
 use chunk::{Chunk, touch};
 use follow::{Searched, follow};
 pub(crate) use passed::Passage;
 use passed::Passed;
-use press::{Sums, motion, push};
-use record::Reach;
-use surface::Surface;
+use press::{ContactEnergies, motion, push};
+use record::ContactReach;
+use surface::ContactSurface;
 
 /// (ω dt)² of one pair. A node between two layers holds up to eight such shares: 0.4 of the 4 that central differences
 /// allow, so contact does not limit a step of 0.9 of what the fabric allows.
@@ -79,26 +79,26 @@ const DAMPING: f64 = 0.1;
 const PIECE: usize = 4096;
 const PIECES: usize = 8;
 
-impl Contact {
+impl LayerContact {
     /// Contact for a mesh in the solver's node order, with the nodes' masses and the time step.
     ///
     /// # Errors
     /// [`FemError::Problem`] for unknown parts or parameters out of range; [`FemError::Mesh`] naming node, element and
     /// depth where layers pass through each other at the start.
-    pub fn new(mesh: &Mesh, settings: &problem::Contact, mass_kg: &[f64], dt_s: f64) -> Result<Contact> {
+    pub fn new(mesh: &Mesh, settings: &problem::Contact, mass_kg: &[f64], dt_s: f64) -> Result<LayerContact> {
         check(settings, mesh, mass_kg, dt_s)?;
-        let surface = Surface::new(mesh, &settings.parts)?;
+        let surface = ContactSurface::new(mesh, &settings.parts)?;
         let reach = reaches(settings, surface.size_m);
         let light_kg = surface.lightest(mass_kg);
         let stiffness_1_s2 = SHARE / (dt_s * dt_s);
         let damping_1_s = 2.0 * DAMPING * stiffness_1_s2.sqrt();
         let start: Vec<[f64; 4]> = mesh.starts().into_iter().map(padded).collect();
-        let mut contact = Contact {
+        let mut contact = LayerContact {
             surface,
             penalty: Penalty { mass_kg: mass_kg.to_vec(), light_kg, stiffness_1_s2, damping_1_s },
             reach,
             friction: settings.friction,
-            ..Contact::default()
+            ..LayerContact::default()
         };
         contact.search(&start);
         start::sides(&mut contact, mesh, settings, &start)?;
@@ -134,9 +134,9 @@ impl Contact {
 }
 
 /// What contact cannot find again from positions, after the number of elements.
-type Saved = (usize, Searched, Sums, Vec<[f64; 4]>, Passed, Vec<Chunk>);
+type Saved = (usize, Searched, ContactEnergies, Vec<[f64; 4]>, Passed, Vec<Chunk>);
 
-impl Term for Contact {
+impl Term for LayerContact {
     fn line(&self) -> LedgerLine {
         LedgerLine::new("contact", Account::Contact)
     }
@@ -168,7 +168,7 @@ impl Term for Contact {
     }
 }
 
-impl Transient for Contact {
+impl Transient for LayerContact {
     fn advance(&mut self, at: &Pose, tick: &Tick, force: &mut [f64]) -> f64 {
         let x = at.q.as_chunks::<4>().0;
         if self.before_m.is_empty() {
@@ -273,8 +273,8 @@ fn hand_over(chunks: &[&Chunk], first: u32, force: &mut Nodes, most: usize) {
     rayon::join(|| hand_over(chunks, first, low, most), || hand_over(chunks, first + half as u32, high, most));
 }
 
-fn reaches(settings: &problem::Contact, size_m: f64) -> Reach {
-    Reach {
+fn reaches(settings: &problem::Contact, size_m: f64) -> ContactReach {
+    ContactReach {
         side_m: (0.375 * size_m).max(4.0 * settings.thickness_m).max(4.0 * settings.gap_m),
         skin_m: size_m,
         // Looking three times as often leaves the cPAM within the scatter of its seeds, and costs more.

@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 
 use super::chunk::Chunk;
 use super::closest::{Closest, Feature};
-use super::record::{Reach, Record};
+use super::record::{ContactReach, Record};
 use crate::vec3::{Nodes, V3};
 
 /// A node and a face that it came through.
@@ -31,7 +31,7 @@ pub(crate) struct Passed {
 
 impl Record {
     /// True if the node is behind the closest face, by more than springs give way.
-    pub(super) fn has_passed(&self, found: &Closest, reach: &Reach) -> bool {
+    pub(super) fn has_passed(&self, found: &Closest, reach: &ContactReach) -> bool {
         let depth_m = -f64::from(self.side) * found.height_m;
         !reach.solid && !self.own && found.feature == Feature::Face && depth_m > reach.thickness_m
     }

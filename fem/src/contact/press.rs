@@ -1,7 +1,7 @@
 //! Forces of pairs: spring, damping and friction, and the energies that go with them.
 
 use super::pack::{Pack, Touches};
-use super::record::{Record, Step, Touch};
+use super::record::{ContactStep, Record, Touch};
 use crate::terms::slide;
 use crate::vec3::{Nodes, V3, add, along, node, scale, sub};
 
@@ -10,7 +10,7 @@ const GROWTH: f64 = 0.02;
 
 /// Force of a pair on its node; the corners of the triangle take their shares of its opposite.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Push {
+pub(super) struct PairForce {
     pub nodes: [u32; 4],
     pub weights: [f64; 3],
     pub force_n: V3,
@@ -18,7 +18,7 @@ pub(super) struct Push {
 
 /// Energies of a chunk in one step \[J\].
 #[derive(Debug, Clone, Copy, Default, serde::Serialize, serde::Deserialize)]
-pub(super) struct Sums {
+pub(super) struct ContactEnergies {
     pub stored: f64,
     pub friction: f64,
     pub damping: f64,
@@ -31,9 +31,9 @@ pub(super) fn press_lane(
     lane: usize,
     touches: &Touches,
     records: &mut [Record],
-    step: &Step,
-    sums: &mut Sums,
-    pushes: &mut Vec<Push>,
+    step: &ContactStep,
+    sums: &mut ContactEnergies,
+    pushes: &mut Vec<PairForce>,
 ) {
     let mut touch = touches.of(lane);
     let (k, c) = (pack.stiffness_n_m[lane], pack.damping_n_s_m[lane]);
@@ -44,11 +44,17 @@ pub(super) fn press_lane(
         force = add(force, rub(&mut records[pack.record[lane] as usize], &touch, normal_n, step, sums));
     }
     let nodes = [pack.node[0][lane], pack.node[1][lane], pack.node[2][lane], pack.node[3][lane]];
-    pushes.push(Push { nodes, weights: touch.weights, force_n: force });
+    pushes.push(PairForce { nodes, weights: touch.weights, force_n: force });
 }
 
 /// The same for an edge or corner.
-pub(super) fn press_round(record: &mut Record, touch: &Touch, step: &Step, sums: &mut Sums, pushes: &mut Vec<Push>) {
+pub(super) fn press_round(
+    record: &mut Record,
+    touch: &Touch,
+    step: &ContactStep,
+    sums: &mut ContactEnergies,
+    pushes: &mut Vec<PairForce>,
+) {
     let mut touch = *touch;
     let (k, c) = (record.stiffness_n_m, record.damping_n_s_m);
     let kept = [&mut record.rest_m, &mut record.last_m, &mut record.damped_n];
@@ -59,13 +65,13 @@ pub(super) fn press_round(record: &mut Record, touch: &Touch, step: &Step, sums:
         force = add(force, rub(record, &touch, normal_n, step, sums));
     }
     let [a, b, c] = record.corners;
-    pushes.push(Push { nodes: [record.node, a, b, c], weights: touch.weights, force_n: force });
+    pushes.push(PairForce { nodes: [record.node, a, b, c], weights: touch.weights, force_n: force });
 }
 
 /// Growth of the rest gap of a pair that is pressed too close, and the depth with it. The work comes from nowhere: it is
 /// booked as a negative loss.
 #[inline(always)]
-fn grow(k: f64, rest_m: f64, touch: &mut Touch, last_m: f64, step: &Step, sums: &mut Sums) -> f64 {
+fn grow(k: f64, rest_m: f64, touch: &mut Touch, last_m: f64, step: &ContactStep, sums: &mut ContactEnergies) -> f64 {
     let distance_m = rest_m - touch.depth_m;
     if distance_m >= step.reach.floor_m || rest_m >= step.reach.thickness_m {
         return 0.0;
@@ -80,7 +86,14 @@ fn grow(k: f64, rest_m: f64, touch: &mut Touch, last_m: f64, step: &Step, sums: 
 /// Normal force of a pair; its rest gap, and depth and damping force of the step before, move on. The loss is the work of the step
 /// less what the spring stores: damping, and what a step that ends or begins within the gap takes or gives.
 #[inline(always)]
-fn press(k: f64, c: f64, kept: [&mut f64; 3], touch: &mut Touch, step: &Step, sums: &mut Sums) -> f64 {
+fn press(
+    k: f64,
+    c: f64,
+    kept: [&mut f64; 3],
+    touch: &mut Touch,
+    step: &ContactStep,
+    sums: &mut ContactEnergies,
+) -> f64 {
     let [rest_m, last_m, damped_n] = kept;
     let grown_m = grow(k, *rest_m, touch, *last_m, step, sums);
     *rest_m += grown_m;
@@ -105,7 +118,7 @@ fn positive(value: f64) -> f64 {
 }
 
 #[inline]
-fn rub(record: &mut Record, touch: &Touch, normal_n: f64, step: &Step, sums: &mut Sums) -> V3 {
+fn rub(record: &mut Record, touch: &Touch, normal_n: f64, step: &ContactStep, sums: &mut ContactEnergies) -> V3 {
     let k = record.stiffness_n_m;
     let moved = motion(record, touch, step.x, step.before);
     let (spring, lost) = slide(record.spring_m, moved, touch.normal, k, step.friction * normal_n);

@@ -1,12 +1,12 @@
 //! What contact remembers of one node near one piece of a layer.
 
 use super::closest::{Closest, Feature};
-use super::surface::Surface;
+use super::surface::ContactSurface;
 use crate::vec3::V3;
 
 /// Distances that decide about pairs \[m\].
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Reach {
+pub(super) struct ContactReach {
     /// A side is decided, and remembered, within this distance.
     pub side_m: f64,
     /// Candidates are complete up to `side_m` while nodes move less than half of this.
@@ -79,7 +79,7 @@ impl Record {
 
     /// Motion of the node against the layer until the next look. Half of the way left, so that a far pair is looked at
     /// again well before it touches; an undecided pair may come near before its side is asked for.
-    pub(super) fn free_m(&self, reach: &Reach) -> f64 {
+    pub(super) fn free_m(&self, reach: &ContactReach) -> f64 {
         let free_m = (0.5 * self.gap_m()).clamp(reach.slack_m, 0.25 * reach.side_m + reach.slack_m);
         if self.side == 0 { free_m.max(self.distance_m - reach.side_m) } else { free_m }
     }
@@ -101,7 +101,7 @@ impl Record {
     }
 
     /// Takes the closest feature over; the side may be decided, released or reset.
-    pub(super) fn settle(&mut self, surface: &Surface, found: &Closest, reach: &Reach) {
+    pub(super) fn settle(&mut self, surface: &ContactSurface, found: &Closest, reach: &ContactReach) {
         self.element = found.element;
         self.feature = found.feature;
         let nodes = &surface.elements[found.element as usize];
@@ -139,12 +139,12 @@ impl Record {
 }
 
 #[derive(Clone, Copy)]
-pub(super) struct Step<'a> {
+pub(super) struct ContactStep<'a> {
     pub(crate) arch: pulp::Arch,
-    pub surface: &'a Surface,
+    pub surface: &'a ContactSurface,
     pub x: &'a [[f64; 4]],
     pub before: &'a [[f64; 4]],
-    pub reach: Reach,
+    pub reach: ContactReach,
     pub dt_s: f64,
     pub friction: f64,
     /// Way of the fastest node since the start, summed over steps.

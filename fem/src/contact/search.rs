@@ -3,7 +3,7 @@
 
 use rayon::prelude::*;
 
-use super::surface::{NONE, Surface};
+use super::surface::{ContactSurface, NONE};
 use crate::vec3::{Nodes, V3, bounds, dot, node, sub};
 
 const PIECE: usize = 1024;
@@ -11,10 +11,10 @@ const PIECE: usize = 1024;
 /// All (node, element) with the node within `radius_m` of the element (and some beyond), sorted by rank of the node, then
 /// element.
 /// Elements that a node must not touch are left out.
-pub(super) fn pairs(surface: &Surface, x: &Nodes, radius_m: f64) -> Vec<(u32, u32)> {
+pub(super) fn pairs(surface: &ContactSurface, x: &Nodes, radius_m: f64) -> Vec<(u32, u32)> {
     let used = (0..x.len() as u32).filter(|n| !surface.around.of(*n as usize).is_empty());
     let places = used.map(|n| Placed { place: node(x, n as usize), item: n }).collect();
-    let grid = Grid::new(places, 0.5 * radius_m.max(surface.size_m));
+    let grid = PointGrid::new(places, 0.5 * radius_m.max(surface.size_m));
     let mark = || vec![NONE; x.len()];
     let pieces = surface.elements.len().div_ceil(PIECE);
     let found: Vec<Vec<(u32, u32)>> = (0..pieces)
@@ -48,9 +48,9 @@ fn by_rank(rank: &[u32], found: &[Vec<(u32, u32)>]) -> Vec<(u32, u32)> {
 
 /// `own` marks the nodes that must not touch an element with its number.
 fn ask(
-    surface: &Surface,
+    surface: &ContactSurface,
     x: &Nodes,
-    grid: &Grid,
+    grid: &PointGrid,
     element: usize,
     radius_m: f64,
     own: &mut [u32],
@@ -92,7 +92,7 @@ fn ask(
 const COLUMNS: f64 = 4.0;
 
 /// Points sorted into columns along the direction in which they are spread least.
-pub(super) struct Grid {
+pub(super) struct PointGrid {
     low: V3,
     per_m: f64,
     /// The two directions across the columns, and the number of columns in each.
@@ -109,9 +109,9 @@ pub(super) struct Placed {
     pub item: u32,
 }
 
-impl Grid {
+impl PointGrid {
     /// Columns of `size_m`, or wider ones where the points are spread so thin that there would be too many.
-    pub(super) fn new(places: Vec<Placed>, size_m: f64) -> Grid {
+    pub(super) fn new(places: Vec<Placed>, size_m: f64) -> PointGrid {
         let [low, high] = bounds(places.iter().map(|p| p.place));
         let length = sub(high, low).map(|l| l.max(0.0));
         let short = (0..3).fold(0, |s, k| if length[k] < length[s] { k } else { s });
@@ -122,7 +122,7 @@ impl Grid {
         let count = [a, b].map(|l| (l / size_m) as usize + 1);
         let start = vec![0; count[0] * count[1] + 1];
         let mut grid =
-            Grid { low, per_m: 1.0 / size_m, across, count, start, points: vec![Placed::default(); places.len()] };
+            PointGrid { low, per_m: 1.0 / size_m, across, count, start, points: vec![Placed::default(); places.len()] };
         let columns: Vec<usize> = places.iter().map(|p| grid.number(grid.column_of(p.place))).collect();
         columns.iter().for_each(|c| grid.start[c + 1] += 1);
         for i in 1..grid.start.len() {

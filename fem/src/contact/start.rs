@@ -7,10 +7,10 @@
 //! number is in front of the one with the lower number; a layer that coincides with itself has its back inside.
 //! The rest gap is the initial distance or `gap_m`, whichever is smaller, so that nothing pushes at the start.
 
-use super::body::Contact;
+use super::body::LayerContact;
 use super::chunk::touch;
 use super::closest::{Closest, element_normal};
-use super::surface::Lists;
+use super::surface::PackedLists;
 use crate::problem;
 use crate::vec3::{Nodes, dot};
 use crate::{FemError, Mesh, Result};
@@ -31,18 +31,18 @@ struct Entry {
 }
 
 /// Records within reach whose side is clear, and the entries of every node.
-struct Start<'a> {
-    contact: &'a Contact,
+struct ContactStart<'a> {
+    contact: &'a LayerContact,
     mesh: &'a Mesh,
     x: &'a [[f64; 4]],
     entries: Vec<Entry>,
-    of_node: Lists,
+    of_node: PackedLists,
 }
 
-pub(super) fn sides(contact: &mut Contact, mesh: &Mesh, settings: &problem::Contact, x: &Nodes) -> Result<()> {
+pub(super) fn sides(contact: &mut LayerContact, mesh: &Mesh, settings: &problem::Contact, x: &Nodes) -> Result<()> {
     let entries = entries(contact, settings, x);
     let pairs: Vec<(u32, u32)> = entries.iter().enumerate().map(|(i, e)| (e.node, i as u32)).collect();
-    let mut start = Start { contact, mesh, x, entries, of_node: Lists::new(x.len(), &pairs) };
+    let mut start = ContactStart { contact, mesh, x, entries, of_node: PackedLists::new(x.len(), &pairs) };
     for _ in 0..PASSES {
         let means: Vec<f64> = start.entries.iter().map(|e| start.mean(e)).collect();
         for (e, mean) in start.entries.iter_mut().zip(means) {
@@ -74,7 +74,7 @@ pub(super) fn sides(contact: &mut Contact, mesh: &Mesh, settings: &problem::Cont
 }
 
 /// Records within reach whose side is clear.
-fn entries(contact: &Contact, settings: &problem::Contact, x: &Nodes) -> Vec<Entry> {
+fn entries(contact: &LayerContact, settings: &problem::Contact, x: &Nodes) -> Vec<Entry> {
     let step = contact.step_of(x, 0.0);
     let cut = 4.0 * settings.gap_m.max(1e-9);
     let mut entries = Vec::new();
@@ -91,7 +91,7 @@ fn entries(contact: &Contact, settings: &problem::Contact, x: &Nodes) -> Vec<Ent
     entries
 }
 
-impl Start<'_> {
+impl ContactStart<'_> {
     /// Other entries of neighbouring nodes that face the same stretch of the same layer.
     fn beside(&self, entry: &Entry) -> impl Iterator<Item = usize> {
         let (surface, entries) = (&self.contact.surface, &self.entries);
@@ -181,7 +181,7 @@ impl Start<'_> {
 }
 
 /// Lowers rest gaps to the distance as a step measures it, so that the first force is exactly zero.
-pub(super) fn relax(contact: &mut Contact, x: &Nodes) {
+pub(super) fn relax(contact: &mut LayerContact, x: &Nodes) {
     for chunk in &mut contact.chunks {
         for record in chunk.records.iter_mut().filter(|r| r.side != 0) {
             record.rest_m -= touch(record, x).depth_m.max(0.0);

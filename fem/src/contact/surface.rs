@@ -9,18 +9,18 @@ pub(super) const NONE: u32 = u32::MAX;
 
 /// Elements of the parts that take part.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Surface {
+pub(super) struct ContactSurface {
     /// Corners; the fourth is [`NONE`] for a triangle.
     pub elements: Vec<[u32; 4]>,
     pub layer: Vec<u32>,
     pub origin: Vec<(u32, u32)>,
     /// Element of the same layer across the edge from corner k to the next.
     pub across: Vec<[u32; 4]>,
-    pub around: Lists,
+    pub around: PackedLists,
     /// Number of nodes that have some.
     pub nodes: usize,
     /// Nodes of an element's layer that never touch it, ascending: two rings.
-    pub skip: Lists,
+    pub skip: PackedLists,
     /// Place of each node in an order that keeps neighbours of a layer together.
     pub rank: Vec<u32>,
     /// Reference area of each node \[m²\].
@@ -29,14 +29,14 @@ pub(super) struct Surface {
 }
 
 #[derive(Debug, Clone, Default)]
-pub(super) struct Lists {
+pub(super) struct PackedLists {
     start: Vec<u32>,
     items: Vec<u32>,
 }
 
-impl Lists {
+impl PackedLists {
     /// Sorts `pairs` (list, item) into lists, keeping the order within each.
-    pub(super) fn new(lists: usize, pairs: &[(u32, u32)]) -> Lists {
+    pub(super) fn new(lists: usize, pairs: &[(u32, u32)]) -> PackedLists {
         let mut start = vec![0; lists + 1];
         pairs.iter().for_each(|p| start[p.0 as usize + 1] += 1);
         (0..lists).for_each(|i| start[i + 1] += start[i]);
@@ -47,7 +47,7 @@ impl Lists {
             items[*place as usize] = *item;
             *place += 1;
         }
-        Lists { start, items }
+        PackedLists { start, items }
     }
     #[inline]
     pub(super) fn of(&self, i: usize) -> &[u32] {
@@ -58,9 +58,9 @@ impl Lists {
 /// Layer, then the lower and the higher node number.
 type Edge = (u32, u32, u32);
 
-impl Surface {
-    pub(super) fn new(mesh: &Mesh, parts: &[String]) -> Result<Surface> {
-        let mut surface = Surface::default();
+impl ContactSurface {
+    pub(super) fn new(mesh: &Mesh, parts: &[String]) -> Result<ContactSurface> {
+        let mut surface = ContactSurface::default();
         if let Some(name) = parts.iter().find(|name| mesh.parts.iter().all(|part| part.name != **name)) {
             let known = mesh.part_names().join(", ");
             return Err(FemError::Problem(format!("contact names part {name:?}; the mesh has: {known}")));
@@ -75,7 +75,7 @@ impl Surface {
         }
         let corners = |e: usize| surface.corners(e).iter().map(move |n| (*n, e as u32));
         let pairs: Vec<(u32, u32)> = (0..surface.elements.len()).flat_map(corners).collect();
-        surface.around = Lists::new(mesh.points.len(), &pairs);
+        surface.around = PackedLists::new(mesh.points.len(), &pairs);
         surface.nodes = (0..mesh.points.len()).filter(|n| !surface.around.of(*n).is_empty()).count();
         surface.border(mesh)?;
         surface.skip = surface.rings(mesh.points.len());
@@ -137,7 +137,7 @@ impl Surface {
         })
     }
 
-    fn rings(&self, nodes: usize) -> Lists {
+    fn rings(&self, nodes: usize) -> PackedLists {
         let mut pairs = Vec::new();
         let mut seen = Vec::new();
         for node in 0..nodes {
@@ -154,7 +154,7 @@ impl Surface {
             seen.dedup();
             pairs.extend(seen.iter().map(|e| (*e, node as u32)));
         }
-        Lists::new(self.elements.len(), &pairs)
+        PackedLists::new(self.elements.len(), &pairs)
     }
 
     /// Ranks nodes layer by layer along a Z-order curve through cells of half an element.

@@ -28,7 +28,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::table::{Table, number};
+use super::table::{StepTable, number};
 use crate::vec3::{V3, along, cross, dot, norm, sub};
 use crate::{FemError, Mesh, Part, Result};
 
@@ -118,13 +118,13 @@ impl CentreLine {
 #[derive(Debug)]
 pub(crate) struct CentreLineFile {
     line: CentreLine,
-    pub table: Table,
+    pub table: StepTable,
 }
 
 impl CentreLineFile {
     /// The file after the rows of `times_s` \[s\], which a checkpoint knows of; later ones are dropped.
     pub(crate) fn open(path: &Path, line: CentreLine, times_s: &[f64]) -> Result<CentreLineFile> {
-        let table = Table::open(path, times_s, line.stations_m.len())?;
+        let table = StepTable::open(path, times_s, line.stations_m.len())?;
         Ok(CentreLineFile { line, table })
     }
 

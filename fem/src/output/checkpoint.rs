@@ -47,13 +47,13 @@ type Loaded = (Checkpoint, Option<String>);
 pub(crate) fn read_checkpoint(folder: &Path, fingerprint: u64) -> Result<Option<Loaded>> {
     let (newest, previous) = names(folder);
     let fault = match read_file(&newest, fingerprint)? {
-        Found::Good(checkpoint) => return Ok(Some((checkpoint, None))),
-        Found::Foreign(reason) => return Err(FemError::checkpoint(newest, reason)),
-        Found::Damaged(reason) => Some(reason),
-        Found::Nothing => None,
+        FoundCheckpoint::Good(checkpoint) => return Ok(Some((checkpoint, None))),
+        FoundCheckpoint::Foreign(reason) => return Err(FemError::checkpoint(newest, reason)),
+        FoundCheckpoint::Damaged(reason) => Some(reason),
+        FoundCheckpoint::Nothing => None,
     };
     match (read_file(&previous, fingerprint)?, fault) {
-        (Found::Good(checkpoint), fault) => {
+        (FoundCheckpoint::Good(checkpoint), fault) => {
             let why = fault.unwrap_or_else(|| "is missing (the run was killed while replacing it)".into());
             let (step, time) = (checkpoint.step, checkpoint.time_s);
             let notice = format!(
@@ -62,9 +62,9 @@ pub(crate) fn read_checkpoint(folder: &Path, fingerprint: u64) -> Result<Option<
             );
             Ok(Some((checkpoint, Some(notice))))
         }
-        (Found::Foreign(reason), _) => Err(FemError::checkpoint(previous, reason)),
-        (Found::Nothing, None) => Ok(None),
-        (Found::Damaged(reason), None) => Err(start_anew(previous, &reason)),
+        (FoundCheckpoint::Foreign(reason), _) => Err(FemError::checkpoint(previous, reason)),
+        (FoundCheckpoint::Nothing, None) => Ok(None),
+        (FoundCheckpoint::Damaged(reason), None) => Err(start_anew(previous, &reason)),
         (_, Some(reason)) => Err(start_anew(newest, &reason)),
     }
 }
@@ -82,10 +82,10 @@ pub(crate) fn read_end(folder: &Path) -> Result<Option<(Checkpoint, Vec<u8>)>> {
         read => read.map_err(FemError::io(&path))?,
     };
     match decode(&bytes, None) {
-        Found::Good(end) => Ok(Some((end, bytes))),
-        Found::Foreign(reason) => Err(FemError::checkpoint(path, reason)),
-        Found::Damaged(reason) => Err(start_anew(path, &reason)),
-        Found::Nothing => Ok(None),
+        FoundCheckpoint::Good(end) => Ok(Some((end, bytes))),
+        FoundCheckpoint::Foreign(reason) => Err(FemError::checkpoint(path, reason)),
+        FoundCheckpoint::Damaged(reason) => Err(start_anew(path, &reason)),
+        FoundCheckpoint::Nothing => Ok(None),
     }
 }
 
@@ -124,7 +124,7 @@ fn encode(checkpoint: &Checkpoint) -> Vec<u8> {
     sealed([&MAGIC[..], &VERSION.to_le_bytes(), &pack(checkpoint)].concat())
 }
 
-enum Found {
+enum FoundCheckpoint {
     Good(Checkpoint),
     /// Whole, but not for this problem or program.
     Foreign(String),
@@ -133,45 +133,45 @@ enum Found {
     Nothing,
 }
 
-fn read_file(path: &Path, fingerprint: u64) -> Result<Found> {
+fn read_file(path: &Path, fingerprint: u64) -> Result<FoundCheckpoint> {
     match std::fs::read(path) {
         Ok(bytes) => Ok(decode(&bytes, Some(fingerprint))),
-        Err(source) if source.kind() == std::io::ErrorKind::NotFound => Ok(Found::Nothing),
+        Err(source) if source.kind() == std::io::ErrorKind::NotFound => Ok(FoundCheckpoint::Nothing),
         Err(source) => Err(FemError::io(path)(source)),
     }
 }
 
-fn decode(bytes: &[u8], fingerprint: Option<u64>) -> Found {
+fn decode(bytes: &[u8], fingerprint: Option<u64>) -> FoundCheckpoint {
     if bytes.len() < MAGIC.len() {
-        return Found::Damaged(format!("is cut off after {} bytes", bytes.len()));
+        return FoundCheckpoint::Damaged(format!("is cut off after {} bytes", bytes.len()));
     }
     if !bytes.starts_with(MAGIC) {
-        return Found::Damaged("is not a checkpoint of this program".into());
+        return FoundCheckpoint::Damaged("is not a checkpoint of this program".into());
     }
     let Some(body) = unsealed(bytes).filter(|body| body.starts_with(MAGIC)) else {
-        return Found::Damaged(format!("is cut off or damaged (checksum of {} bytes differs)", bytes.len()));
+        return FoundCheckpoint::Damaged(format!("is cut off or damaged (checksum of {} bytes differs)", bytes.len()));
     };
     let Some((version, state)) = body[MAGIC.len()..].split_first_chunk().map(|(v, s)| (u64::from_le_bytes(*v), s))
     else {
-        return Found::Damaged("is cut off before its version".into());
+        return FoundCheckpoint::Damaged("is cut off before its version".into());
     };
     if version != VERSION {
-        return Found::Foreign(format!(
+        return FoundCheckpoint::Foreign(format!(
             "its format version is {version}, this program reads {VERSION}: go on with the program that wrote it, or start \
              anew with --force"
         ));
     }
     let Some(checkpoint) = unpack::<Checkpoint>(state) else {
-        return Found::Damaged("has fields of the wrong length".into());
+        return FoundCheckpoint::Damaged("has fields of the wrong length".into());
     };
     if let Some(fingerprint) = fingerprint.filter(|wanted| *wanted != checkpoint.fingerprint) {
-        return Found::Foreign(format!(
+        return FoundCheckpoint::Foreign(format!(
             "it belongs to another problem ({:016x}, this one is {fingerprint:016x}): the case or mesh was changed. Undo \
              the change, choose another folder, or start anew with --force",
             checkpoint.fingerprint
         ));
     }
-    Found::Good(checkpoint)
+    FoundCheckpoint::Good(checkpoint)
 }
 
 #[cfg(test)]

@@ -115,7 +115,7 @@ fn a_kill_at_any_moment_of_writing_leaves_a_good_one() {
 }
 
 fn decodes(path: &Path) -> bool {
-    matches!(read_file(path, PROBLEM).unwrap(), Found::Good(_))
+    matches!(read_file(path, PROBLEM).unwrap(), FoundCheckpoint::Good(_))
 }
 
 #[test]

@@ -5,7 +5,7 @@ use crate::{FemError, Mesh, Result, Simulation};
 
 /// The state of all nodes and elements at one moment, in mesh order.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Frame {
+pub(crate) struct MeshFrame {
     pub step: u64,
     pub time_s: f64,
     pub positions: Vec<[f64; 3]>,
@@ -18,9 +18,9 @@ pub(crate) struct Frame {
     pub hold_pa: Option<f64>,
 }
 
-impl Frame {
-    pub(crate) fn of(run: &Simulation) -> Frame {
-        Frame {
+impl MeshFrame {
+    pub(crate) fn of(run: &Simulation) -> MeshFrame {
+        MeshFrame {
             step: run.step(),
             time_s: run.time_s(),
             positions: run.positions(),
@@ -35,7 +35,7 @@ impl Frame {
     /// Checks that the frame fits the mesh and that every number is finite.
     pub(crate) fn check(&self, mesh: &Mesh) -> Result<()> {
         let (nodes, elements) = (mesh.points.len(), mesh.elements());
-        let Frame { fields, positions, velocities, contact_pressure_pa: contact, .. } = self;
+        let MeshFrame { fields, positions, velocities, contact_pressure_pa: contact, .. } = self;
         let pressed = if contact.is_empty() { 0 } else { nodes };
         let chambers: Vec<f64> = self.chambers.iter().flat_map(|c| [c.pressure_pa, c.volume_m3]).collect();
         let wrinkles: Vec<f64> = fields.wrinkle_state.iter().map(|state| f64::from(*state)).collect();

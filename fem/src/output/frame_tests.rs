@@ -12,13 +12,13 @@ pub(crate) fn mesh() -> Mesh {
 }
 
 /// Numbers without pattern or round values.
-pub(crate) fn frame(time_s: f64) -> Frame {
+pub(crate) fn frame(time_s: f64) -> MeshFrame {
     let mesh = mesh();
     let noise = |i: usize, k: usize| ((i * 7 + k * 13 + 1) as f64 * 0.7 + time_s).sin();
     let triple = |i: usize| [noise(i, 0), noise(i, 1), noise(i, 2)];
     let scalar = |k: usize| (0..3).map(|i| noise(i, k)).collect::<Vec<_>>();
     let pair = |k: usize| (0..3).map(|i| [noise(i, k), noise(i, k + 1)]).collect::<Vec<_>>();
-    Frame {
+    MeshFrame {
         step: 10,
         time_s,
         positions: (0..mesh.points.len()).map(triple).collect(),
@@ -40,9 +40,9 @@ pub(crate) fn frame(time_s: f64) -> Frame {
 }
 
 /// Every way in which one number of a frame is not finite, or one value too many.
-pub(crate) fn spoilt() -> Vec<(&'static str, Frame)> {
-    let mut all: Vec<(&'static str, Frame)> = Vec::new();
-    let mut add = |name: &'static str, change: &dyn Fn(&mut Frame)| {
+pub(crate) fn spoilt() -> Vec<(&'static str, MeshFrame)> {
+    let mut all: Vec<(&'static str, MeshFrame)> = Vec::new();
+    let mut add = |name: &'static str, change: &dyn Fn(&mut MeshFrame)| {
         let mut bad = frame(0.5);
         change(&mut bad);
         all.push((name, bad));

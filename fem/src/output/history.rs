@@ -18,7 +18,7 @@ use std::path::Path;
 
 use models::{Row, RowKind};
 
-use super::table::{Table, check_label, number};
+use super::table::{StepTable, check_label, number};
 use crate::run::{ChamberState, Ledger, Reaction};
 use crate::vec3::{V3, share};
 use crate::{FemError, Mesh, Result, Simulation};
@@ -26,7 +26,7 @@ use crate::{FemError, Mesh, Result, Simulation};
 const AXES: [&str; 3] = ["x", "y", "z"];
 
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Record {
+pub(crate) struct HistoryRecord {
     pub step: u64,
     pub time_s: f64,
     pub dt_s: f64,
@@ -38,9 +38,9 @@ pub(crate) struct Record {
     pub positions: Vec<[f64; 3]>,
 }
 
-impl Record {
-    pub(crate) fn of(run: &Simulation) -> Record {
-        Record {
+impl HistoryRecord {
+    pub(crate) fn of(run: &Simulation) -> HistoryRecord {
+        HistoryRecord {
             step: run.step(),
             time_s: run.time_s(),
             dt_s: run.dt_s(),
@@ -53,8 +53,8 @@ impl Record {
 }
 
 #[derive(Debug)]
-pub(crate) struct History {
-    pub table: Table,
+pub(crate) struct HistoryTable {
+    pub table: StepTable,
     probes: Vec<Probe>,
 }
 
@@ -65,16 +65,16 @@ struct Probe {
     start: [f64; 3],
 }
 
-impl History {
+impl HistoryTable {
     /// The history after the rows of `times_s` \[s\], which a checkpoint knows of, with the node sets of `mesh` named in `probes`;
     /// later rows are dropped.
-    pub(crate) fn open(path: &Path, mesh: &Mesh, probes: &[String], times_s: &[f64]) -> Result<History> {
+    pub(crate) fn open(path: &Path, mesh: &Mesh, probes: &[String], times_s: &[f64]) -> Result<HistoryTable> {
         let probes = find_probes(mesh, probes)?;
-        Ok(History { table: Table::open(path, times_s, 1)?, probes })
+        Ok(HistoryTable { table: StepTable::open(path, times_s, 1)?, probes })
     }
 
     /// Adds a row; a step that has a row already is not written again.
-    pub(crate) fn append(&mut self, record: &Record) -> Result<()> {
+    pub(crate) fn append(&mut self, record: &HistoryRecord) -> Result<()> {
         let cells = self.cells(record)?;
         if let Some((name, value)) = cells.iter().find(|(_, value)| !value.is_finite()) {
             let reason = format!("{name} is {value}: try a smaller cfl or slower loading");
@@ -88,7 +88,7 @@ impl History {
     }
 
     /// Names and values of a row, without the step.
-    fn cells(&self, record: &Record) -> Result<Vec<(String, f64)>> {
+    fn cells(&self, record: &HistoryRecord) -> Result<Vec<(String, f64)>> {
         let Ledger { kinetic_j, rows, residual_j, external_work_j, scale_j } = &record.ledger;
         let mut cells = vec![
             ("time_s".to_string(), record.time_s),

@@ -10,7 +10,7 @@ fn reaction(set: &str, axes: [bool; 3], t: f64) -> Reaction {
     Reaction { set: set.into(), axes, force_n: [t.sin(), t.cos(), t / 7.0], moment_nm: [t / 3.0, -t, t.tan()] }
 }
 
-fn record(step: u64) -> Record {
+fn record(step: u64) -> HistoryRecord {
     let t = step as f64 * 0.1;
     let row = |name, kind, share: f64| LedgerLine::new(name, Account::Stretch).row(kind, share * t.exp());
     let rows = vec![
@@ -20,7 +20,7 @@ fn record(step: u64) -> Record {
         row("membrane", RowKind::Stored, 2.0),
         row("yarn hysteresis", RowKind::Dissipated, 3.0),
     ];
-    Record {
+    HistoryRecord {
         step,
         time_s: t,
         dt_s: 1e-6 / 3.0,
@@ -41,7 +41,7 @@ fn cells(text: &str, row: usize) -> std::collections::BTreeMap<&str, f64> {
 fn every_number_of_the_record_is_in_its_column_to_the_bit() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("history.csv");
-    let mut history = History::open(&path, &mesh(), &["tip".into()], &[]).unwrap();
+    let mut history = HistoryTable::open(&path, &mesh(), &["tip".into()], &[]).unwrap();
     (0..3).for_each(|step| history.append(&record(step)).unwrap());
     let text = std::fs::read_to_string(&path).unwrap();
     assert_eq!(
@@ -71,12 +71,12 @@ fn an_interrupted_and_resumed_history_has_the_bytes_of_an_uninterrupted_one() {
     let folder = tempfile::tempdir().unwrap();
     let (whole, cut) = (folder.path().join("whole.csv"), folder.path().join("cut.csv"));
     let probes = ["tip".to_string()];
-    let mut history = History::open(&whole, &mesh(), &probes, &[]).unwrap();
+    let mut history = HistoryTable::open(&whole, &mesh(), &probes, &[]).unwrap();
     (0..8).for_each(|step| history.append(&record(step)).unwrap());
-    let mut history = History::open(&cut, &mesh(), &probes, &[]).unwrap();
+    let mut history = HistoryTable::open(&cut, &mesh(), &probes, &[]).unwrap();
     (0..6).for_each(|step| history.append(&record(step)).unwrap());
     drop(history);
-    let mut history = History::open(&cut, &mesh(), &probes, &[0, 1, 2, 3].map(|step| step as f64 * 0.1)).unwrap();
+    let mut history = HistoryTable::open(&cut, &mesh(), &probes, &[0, 1, 2, 3].map(|step| step as f64 * 0.1)).unwrap();
     (3..8).for_each(|step| history.append(&record(step)).unwrap());
     assert_eq!(std::fs::read(&whole).unwrap(), std::fs::read(&cut).unwrap());
 }
@@ -85,7 +85,7 @@ fn an_interrupted_and_resumed_history_has_the_bytes_of_an_uninterrupted_one() {
 fn a_number_that_is_not_finite_is_named_and_not_written() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("history.csv");
-    let mut history = History::open(&path, &mesh(), &["tip".into()], &[]).unwrap();
+    let mut history = HistoryTable::open(&path, &mesh(), &["tip".into()], &[]).unwrap();
     history.append(&record(0)).unwrap();
     let before = std::fs::read(&path).unwrap();
     let mut bad = record(1);
@@ -104,13 +104,13 @@ fn a_number_that_is_not_finite_is_named_and_not_written() {
 fn a_probe_that_is_not_in_the_mesh_is_refused_with_the_sets_that_are() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("history.csv");
-    let error = History::open(&path, &mesh(), &["tipp".into()], &[]).unwrap_err().to_string();
+    let error = HistoryTable::open(&path, &mesh(), &["tipp".into()], &[]).unwrap_err().to_string();
     assert!(error.contains("`tipp`") && error.contains("the mesh has: tip"), "{error}");
     let mut odd = mesh();
     odd.sets.insert("none".into(), Vec::new());
     odd.sets.insert("far".into(), vec![99]);
     for name in ["none", "far"] {
-        let error = History::open(&path, &odd, &[name.to_string()], &[]).unwrap_err().to_string();
+        let error = HistoryTable::open(&path, &odd, &[name.to_string()], &[]).unwrap_err().to_string();
         assert!(error.contains(name) && error.contains("empty or names nodes"), "{error}");
     }
 }

@@ -14,7 +14,7 @@ pub(crate) mod pvd;
 pub(crate) mod table;
 pub(crate) mod vtu;
 
-pub(crate) use frame::Frame;
+pub(crate) use frame::MeshFrame;
 
 use crate::{FemError, Result};
 use std::io::{Error, Write};

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::frame::Frame;
+use super::frame::MeshFrame;
 use super::vtu::write_vtu;
 use crate::output::replace;
 use crate::{FemError, Mesh, Result};
@@ -33,7 +33,7 @@ impl Series {
     }
 
     /// Adds a frame: its file first, then the list that names it. A frame of the time of the last one replaces it.
-    pub(crate) fn push(&mut self, mesh: &Mesh, frame: &Frame) -> Result<PathBuf> {
+    pub(crate) fn push(&mut self, mesh: &Mesh, frame: &MeshFrame) -> Result<PathBuf> {
         let last = self.times_s.last().copied();
         if last.is_some_and(|last| frame.time_s < last) {
             let reason = format!("a frame of {} s is in the list already", last.unwrap_or_default());

@@ -9,27 +9,27 @@ use crate::{FemError, Result};
 
 /// A growing table with a column `step`. Rows of one step are written in one go and handed to the system at once.
 #[derive(Debug)]
-pub(crate) struct Table {
+pub(crate) struct StepTable {
     path: PathBuf,
     file: File,
     header: String,
     last_step: Option<u64>,
 }
 
-impl Table {
+impl StepTable {
     /// The table after the outputs at `times_s` \[s\], of so many rows each, which must be there: later rows, and a last line that a
     /// kill cut short, are dropped. Without any output it is empty, whatever was there.
-    pub(crate) fn open(path: &Path, times_s: &[f64], rows_each: usize) -> Result<Table> {
+    pub(crate) fn open(path: &Path, times_s: &[f64], rows_each: usize) -> Result<StepTable> {
         let text = content(path)?;
         let (header, last_step, kept) = kept(path, &text, times_s, rows_each)?;
         if kept.len() < text.len() || !path.exists() {
             replace(path, &mut |out| out.write_all(kept.as_bytes()))?;
         }
         let file = OpenOptions::new().append(true).open(path).map_err(FemError::io(path))?;
-        Ok(Table { path: path.to_path_buf(), file, header: header.to_string(), last_step })
+        Ok(StepTable { path: path.to_path_buf(), file, header: header.to_string(), last_step })
     }
 
-    /// Refuses what [`Table::open`] refuses, and touches nothing.
+    /// Refuses what [`StepTable::open`] refuses, and touches nothing.
     pub(crate) fn check(path: &Path, times_s: &[f64], rows_each: usize) -> Result<()> {
         kept(path, &content(path)?, times_s, rows_each).map(|_| ())
     }
@@ -145,7 +145,7 @@ mod tests {
             // The file on the disk has at least the rows up to the checkpoint; the last line may be half written.
             for step in (0..6).filter(|&step| whole(0..step + 1).len() <= length) {
                 std::fs::write(&path, &all[..length]).unwrap();
-                let mut table = Table::open(&path, &times(step + 1), 2).unwrap();
+                let mut table = StepTable::open(&path, &times(step + 1), 2).unwrap();
                 assert_eq!(std::fs::read_to_string(&path).unwrap(), whole(0..step + 1));
                 (step..6).for_each(|step| table.append(step, HEADER, &rows(step)).unwrap());
                 table.sync().unwrap();
@@ -158,7 +158,7 @@ mod tests {
     fn a_step_back_and_other_columns_are_refused() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("t.csv");
-        let mut table = Table::open(&path, &[], 2).unwrap();
+        let mut table = StepTable::open(&path, &[], 2).unwrap();
         table.append(3, HEADER, &rows(3)).unwrap();
         assert!(table.append(2, HEADER, &rows(2)).unwrap_err().to_string().contains("step 2 comes after step 3"));
         assert!(table.append(4, "time_s,step,y", &rows(4)).unwrap_err().to_string().contains("columns were"));
@@ -171,7 +171,7 @@ mod tests {
         let path = folder.path().join("t.csv");
         for (text, line) in [("a,b\n1,2\n", 1), ("time_s,step\n0,1\n0,one\n", 3)] {
             std::fs::write(&path, text).unwrap();
-            let error = Table::open(&path, &[0.0], 2).unwrap_err().to_string();
+            let error = StepTable::open(&path, &[0.0], 2).unwrap_err().to_string();
             assert!(error.contains(&format!("t.csv:{line}: ")), "{error}");
             assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
         }
@@ -185,12 +185,12 @@ mod tests {
         for line in 1..=8 {
             let fewer: String = all.split_inclusive('\n').enumerate().filter(|l| l.0 != line).map(|l| l.1).collect();
             std::fs::write(&path, &fewer).unwrap();
-            let error = Table::open(&path, &times(4), 2).unwrap_err().to_string();
+            let error = StepTable::open(&path, &times(4), 2).unwrap_err().to_string();
             assert!(error.contains(&format!("the row of {} s", ((line - 1) / 2) as f64 * 0.1)), "{error}");
             assert_eq!(std::fs::read_to_string(&path).unwrap(), fewer);
         }
         std::fs::remove_file(&path).unwrap();
-        assert!(Table::open(&path, &times(1), 2).unwrap_err().to_string().contains("the row of 0 s"));
-        assert!(!path.exists() && Table::open(&path, &[], 2).is_ok() && path.exists());
+        assert!(StepTable::open(&path, &times(1), 2).unwrap_err().to_string().contains("the row of 0 s"));
+        assert!(!path.exists() && StepTable::open(&path, &[], 2).is_ok() && path.exists());
     }
 }

@@ -32,7 +32,7 @@ use std::path::Path;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-use super::frame::Frame;
+use super::frame::MeshFrame;
 use crate::mesh::Part;
 use crate::output::replace;
 use crate::vec3::V3;
@@ -49,21 +49,21 @@ const PLACE_BITS: i32 = 17;
 const DIRECTION: f64 = 127.0;
 
 /// Writes one frame to `path`, whole or not at all.
-pub(crate) fn write_vtu(path: &Path, mesh: &Mesh, frame: &Frame) -> Result<()> {
+pub(crate) fn write_vtu(path: &Path, mesh: &Mesh, frame: &MeshFrame) -> Result<()> {
     frame.check(mesh)?;
-    let bytes = Grid::of(mesh, frame);
+    let bytes = FileTags::of(mesh, frame);
     replace(path, &mut |out| bytes.write(out))
 }
 
 /// The tags of a file, with the arrays in them.
 #[derive(Default)]
-struct Grid {
+struct FileTags {
     tags: String,
 }
 
-impl Grid {
-    fn of(mesh: &Mesh, frame: &Frame) -> Grid {
-        let mut grid = Grid::default();
+impl FileTags {
+    fn of(mesh: &Mesh, frame: &MeshFrame) -> FileTags {
+        let mut grid = FileTags::default();
         grid.within("FieldData", |grid| grid.about(mesh, frame));
         grid.tags +=
             &format!("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", mesh.points.len(), mesh.elements());
@@ -84,7 +84,7 @@ impl Grid {
         writeln!(out, "{}</UnstructuredGrid>\n</VTKFile>", self.tags)
     }
 
-    fn about(&mut self, mesh: &Mesh, frame: &Frame) {
+    fn about(&mut self, mesh: &Mesh, frame: &MeshFrame) {
         self.field("TimeValue", frame.time_s);
         for (id, part) in mesh.parts.iter().enumerate() {
             self.field(&format!("part_id {}", part.name), id as f64);
@@ -109,7 +109,7 @@ impl Grid {
         self.bytes("types", corners().map(|nodes| if nodes.len() == 4 { QUAD } else { TRIANGLE }));
     }
 
-    fn point_data(&mut self, mesh: &Mesh, frame: &Frame) {
+    fn point_data(&mut self, mesh: &Mesh, frame: &MeshFrame) {
         let step = step_mm(mesh);
         let moved = |(i, now): (usize, &[f64; 3])| {
             let start = mesh.start_of(i);
@@ -124,7 +124,7 @@ impl Grid {
         }
     }
 
-    fn cell_data(&mut self, mesh: &Mesh, frame: &Frame) {
+    fn cell_data(&mut self, mesh: &Mesh, frame: &MeshFrame) {
         let fields = &frame.fields;
         self.scalars("von_mises_MPa", fields.von_mises_pa.iter().map(|s| s * 1e-6));
         for k in 0..2 {
@@ -138,7 +138,7 @@ impl Grid {
         self.integers("part_id", elements(mesh).map(|(id, _, _)| id as u32));
     }
 
-    fn within(&mut self, element: &str, inner: impl FnOnce(&mut Grid)) {
+    fn within(&mut self, element: &str, inner: impl FnOnce(&mut FileTags)) {
         self.tags += &format!("<{element}>\n");
         inner(self);
         self.tags += &format!("</{}>\n", element.split(' ').next().unwrap_or(element));

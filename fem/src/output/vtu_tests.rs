@@ -7,7 +7,7 @@ struct File {
 }
 
 impl File {
-    fn written(mesh: &Mesh, frame: &Frame) -> File {
+    fn written(mesh: &Mesh, frame: &MeshFrame) -> File {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("frame.vtu");
         write_vtu(&path, mesh, frame).unwrap();
@@ -44,7 +44,7 @@ impl File {
 
 #[test]
 fn every_value_is_read_back_with_the_bits_that_are_kept() {
-    let (mut mesh, frame) = (mesh(), Frame { hold_pa: None, ..frame(0.25) });
+    let (mut mesh, frame) = (mesh(), MeshFrame { hold_pa: None, ..frame(0.25) });
     mesh.start = mesh.points.iter().map(|p| [p[0], p[1], p[2] + 0.003]).collect();
     let file = File::written(&mesh, &frame);
     let fields = |name: &str, wanted: Vec<f64>| {
@@ -87,7 +87,7 @@ fn what_the_frame_is_of_is_in_it() {
     assert!(!file.tags.contains("String"), "meshio reads no texts");
     assert_eq!(file.doubles("hold_kPa"), [10.0]);
     assert!(!file.tags.contains("velocity"), "a robot is read at rest");
-    let plain = Frame { chambers: vec![], hold_pa: None, contact_pressure_pa: vec![], ..frame(0.25) };
+    let plain = MeshFrame { chambers: vec![], hold_pa: None, contact_pressure_pa: vec![], ..frame(0.25) };
     let file = File::written(&mesh(), &plain);
     assert!(!file.tags.contains("chamber") && !file.tags.contains("hold") && !file.tags.contains("contact_pressure"));
 }

@@ -15,7 +15,7 @@ pub(crate) struct Solid {
 }
 
 /// Where a node is with respect to a solid.
-pub(crate) struct Touch {
+pub(crate) struct SolidTouch {
     pub(crate) depth_m: f64,
     pub normal: V3,
 }
@@ -40,14 +40,14 @@ impl Solid {
         let axis = unit(axis).ok_or_else(|| bad("its normal or axis has no length; write for example [0, 0, 1]"))?;
         Ok(Solid { point, axis, radius_m, friction: obstacle.friction })
     }
-    pub(crate) fn touch(&self, x: &[f64; 4]) -> Touch {
+    pub(crate) fn touch(&self, x: &[f64; 4]) -> SolidTouch {
         let r = sub([x[0], x[1], x[2]], self.point);
         let height = dot(r, self.axis);
-        let Some(radius) = self.radius_m else { return Touch { depth_m: -height, normal: self.axis } };
+        let Some(radius) = self.radius_m else { return SolidTouch { depth_m: -height, normal: self.axis } };
         let out = along(r, -height, self.axis);
         let distance = dot(out, out).sqrt();
         let normal = if distance > 0.0 { scale(out, 1.0 / distance) } else { any_across(self.axis) };
-        Touch { depth_m: radius - distance, normal }
+        SolidTouch { depth_m: radius - distance, normal }
     }
 }
 

@@ -15,14 +15,14 @@ pub struct Assumed {
     /// Smallest and largest plausible value, SI.
     pub interval: [f64; 2],
     /// How values are spread over it.
-    pub spread: Spread,
+    pub spread: ValueSpacing,
     /// Source of the interval, in a few words.
     pub reason: &'static str,
 }
 
 /// How values are spread over an interval.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Spread {
+pub enum ValueSpacing {
     /// Equal differences have equal probability, uniform over the interval.
     Even,
     /// Every factor alike, where the ends differ by a factor of five and more.
@@ -34,13 +34,13 @@ impl Assumed {
     pub fn at(&self, share: f64) -> f64 {
         let [low, high] = self.interval;
         match self.spread {
-            Spread::Even => low + share * (high - low),
-            Spread::Factor => low * (high / low).powf(share),
+            ValueSpacing::Even => low + share * (high - low),
+            ValueSpacing::Factor => low * (high / low).powf(share),
         }
     }
 }
 
-const fn assumed(key: &'static str, interval: [f64; 2], spread: Spread, reason: &'static str) -> Assumed {
+const fn assumed(key: &'static str, interval: [f64; 2], spread: ValueSpacing, reason: &'static str) -> Assumed {
     Assumed { key, interval, spread, reason }
 }
 
@@ -48,24 +48,24 @@ const fn assumed(key: &'static str, interval: [f64; 2], spread: Spread, reason: 
 /// a tip by more than 1 % when they are a third or three times as large (`ibr simulate epam --numerics`).
 #[rustfmt::skip]
 pub const ASSUMED: &[Assumed] = &[
-    assumed("weld_mm", [0.0, 0.008], Spread::Even, "a line to a wide impulse seal; ultrasonic wheels are a few millimetres wide"),
-    assumed("bending_factor", [0.1, 0.5], Spread::Factor, "droop of a heat-bondable coated nylon, measured by Farrell et al."),
-    assumed("wrinkle_length", [0.5, 1.0], Spread::Even,
+    assumed("weld_mm", [0.0, 0.008], ValueSpacing::Even, "a line to a wide impulse seal; ultrasonic wheels are a few millimetres wide"),
+    assumed("bending_factor", [0.1, 0.5], ValueSpacing::Factor, "droop of a heat-bondable coated nylon, measured by Farrell et al."),
+    assumed("wrinkle_length", [0.5, 1.0], ValueSpacing::Even,
         "wrinkles from the strip's edge to the taut line, or half as far; their load follows from it, bending and hoop tension"),
-    assumed("bond", [0.0, 1.0], Spread::Even,
+    assumed("bond", [0.0, 1.0], ValueSpacing::Even,
         "plies that slide to plies without slip; shear lag through 0.05 mm of adhesive is about 2 mm"),
-    assumed("tape_mm", [2e-5, 2.5e-4], Spread::Factor, "adhesive transfer tapes are sold from 0.02 to 0.25 mm"),
-    assumed("tape_margin_mm", [0.0, 0.015], Spread::Even, "a sheet cut at its welds to one that is easy to tape"),
-    assumed("waviness_mm", [0.0, 2e-4], Spread::Even, "a perfect pattern to a thickness of the fabric"),
-    assumed("glue_mm", [5e-5, 5e-4], Spread::Factor, "a film spread by hand"),
-    assumed("glue_e_mpa", [3e5, 3e6], Spread::Factor, "silicone adhesives"),
-    assumed("nu12", [0.0, 0.4], Spread::Even, "woven fabrics pulled in one direction; 0 is yarns that do not cross"),
-    assumed("density_kg_m3", [700.0, 1300.0], Spread::Even, "nylon 1140, coats 900 to 1200, air between yarns"),
-    assumed("hourglass", [7e-4 / 3.0, 3.0 * 7e-4], Spread::Factor, "numerical: a third to three times the default"),
-    assumed("layer_gap_mm", [1e-5 / 3.0, 3e-5], Spread::Factor,
+    assumed("tape_mm", [2e-5, 2.5e-4], ValueSpacing::Factor, "adhesive transfer tapes are sold from 0.02 to 0.25 mm"),
+    assumed("tape_margin_mm", [0.0, 0.015], ValueSpacing::Even, "a sheet cut at its welds to one that is easy to tape"),
+    assumed("waviness_mm", [0.0, 2e-4], ValueSpacing::Even, "a perfect pattern to a thickness of the fabric"),
+    assumed("glue_mm", [5e-5, 5e-4], ValueSpacing::Factor, "a film spread by hand"),
+    assumed("glue_e_mpa", [3e5, 3e6], ValueSpacing::Factor, "silicone adhesives"),
+    assumed("nu12", [0.0, 0.4], ValueSpacing::Even, "woven fabrics pulled in one direction; 0 is yarns that do not cross"),
+    assumed("density_kg_m3", [700.0, 1300.0], ValueSpacing::Even, "nylon 1140, coats 900 to 1200, air between yarns"),
+    assumed("hourglass", [7e-4 / 3.0, 3.0 * 7e-4], ValueSpacing::Factor, "numerical: a third to three times the default"),
+    assumed("layer_gap_mm", [1e-5 / 3.0, 3e-5], ValueSpacing::Factor,
         "numerical: a third to three times the published distance of layers"),
-    assumed("mass_damping_1_s", [25.0, 230.0], Spread::Factor, "numerical: a third to three times the default of the ePAM"),
-    assumed("layer_friction", [0.0, 0.6], Spread::Even, "none, as in the paper's model, to dry coated nylon on itself"),
+    assumed("mass_damping_1_s", [25.0, 230.0], ValueSpacing::Factor, "numerical: a third to three times the default of the ePAM"),
+    assumed("layer_friction", [0.0, 0.6], ValueSpacing::Even, "none, as in the paper's model, to dry coated nylon on itself"),
 ];
 
 /// Shares 0 to 1 of the interval of each of `numbers` numbers for `robots` robots; the same seed gives the same hypercube everywhere.

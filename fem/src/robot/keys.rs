@@ -1,12 +1,12 @@
 //! The numbers of the table `[fem]`: every setting of a robot that is one.
 
 use super::RobotSettings;
-use crate::case::range::{Key, key};
+use crate::case::range::{DeclaredKey, key};
 use crate::{FemError, Result};
 
 /// Numbers of the table `[fem]`, each with unit, bounds and meaning.
 #[rustfmt::skip]
-pub const KEYS: &[Key<RobotSettings>] = &[
+pub const KEYS: &[DeclaredKey<RobotSettings>] = &[
     key("mesh_mm", 1e-3, [0.5, 50.0], "element size of body and actuator",
         |s| Some(s.body_size_m), |s, v| { s.body_size_m = v; s.actuator_size_m = v; }),
     key("body_mesh_mm", 1e-3, [0.5, 50.0], "element size of the body", |s| Some(s.body_size_m), |s, v| s.body_size_m = v),

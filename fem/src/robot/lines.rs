@@ -29,7 +29,7 @@ const LEAST_STRIP: f64 = 0.5;
 const MERGE: f64 = 0.4;
 
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Lines {
+pub(super) struct GridLines {
     /// Places of the rings where they cross the middle of a strip \[m\].
     pub x_m: Vec<f64>,
     /// The strips, in the order of the scenario.
@@ -37,7 +37,7 @@ pub(super) struct Lines {
     /// Angles of all generators \[rad\], ascending from the edge of the first strip; where they turn, those at the base.
     pub angles: Vec<f64>,
     pub markers: Vec<usize>,
-    turn: Option<Turn>,
+    turn: Option<GridTurn>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -51,7 +51,7 @@ pub(super) struct StripLines {
 
 /// How the grid turns with slanted strips.
 #[derive(Debug, Clone, PartialEq)]
-struct Turn {
+struct GridTurn {
     /// From the first weld to the last \[m\].
     zone_m: [f64; 2],
     length_m: f64,
@@ -61,10 +61,10 @@ struct Turn {
     ahead_m: Vec<f64>,
 }
 
-impl Lines {
+impl GridLines {
     /// # Errors
     /// [`FemError::Problem`] for strips of several slants, or so close that elements between them are slivers.
-    pub(super) fn of(scenario: &Scenario, patterns: &[Pattern], settings: &RobotSettings) -> Result<Lines> {
+    pub(super) fn of(scenario: &Scenario, patterns: &[Pattern], settings: &RobotSettings) -> Result<GridLines> {
         let radius_m = scenario.radius_m;
         let cos = scenario.actuator.cos_slant(radius_m);
         let sin = scenario.actuator.sin_slant(radius_m);
@@ -96,9 +96,10 @@ impl Lines {
             .map(|strip| strip.azimuth_rad + rad_per_m * where_so(sin != 0.0, zone_m[0] - strip.start_m))
             .collect();
         let angles = around(radius_m, cos, &centres, &mut strips, settings)?;
-        let ahead = || Turn { zone_m, length_m: scenario.length_m, rad_per_m, ahead_m: ahead(&angles, &strips, sin) };
+        let ahead =
+            || GridTurn { zone_m, length_m: scenario.length_m, rad_per_m, ahead_m: ahead(&angles, &strips, sin) };
         let turn = (sin != 0.0).then(ahead);
-        Ok(Lines { strips, markers, angles, turn, x_m })
+        Ok(GridLines { strips, markers, angles, turn, x_m })
     }
 
     /// Place of the node of a ring and a generator at a radius \[m\].
@@ -124,7 +125,7 @@ impl StripLines {
     }
 }
 
-impl Turn {
+impl GridTurn {
     /// By which generators have turned at a ring \[rad\].
     fn angle(&self, x_m: f64) -> f64 {
         self.rad_per_m * (x_m.clamp(self.zone_m[0], self.zone_m[1]) - self.zone_m[0])

@@ -37,7 +37,7 @@ mod snaps;
 mod table;
 mod waviness;
 
-pub use assumed::{ASSUMED, Assumed, Spread, hypercube, latin};
+pub use assumed::{ASSUMED, Assumed, ValueSpacing, hypercube, latin};
 pub use inflated::InflatedPouch;
 pub use keys::{KEYS, NUMERICAL, OTHERS};
 pub use loading::{HoldEnd, Load, RobotRun, RobotStart};
@@ -65,7 +65,7 @@ use crate::run;
 use crate::sheet::reference::mean_stiffness;
 use crate::vec3::{area, norm, where_so};
 use crate::{FemError, Mesh, Problem, Result};
-use lines::Lines;
+use lines::GridLines;
 use plies::Plies;
 
 /// Mass damping over ω of [`Settling`]: half of the critical damping of the ePAM, whose tip then overshoots by a sixth.
@@ -116,7 +116,7 @@ fn sewn(scenario: &Scenario, patterns: &[Pattern], settings: &RobotSettings) -> 
     fits(scenario, patterns, settings)?;
     let weld_m = lines::weld_m(settings);
     let patterns: Vec<Pattern> = patterns.iter().map(|pattern| pattern.between_welds(weld_m)).collect();
-    let lines = Lines::of(scenario, &patterns, settings)?;
+    let lines = GridLines::of(scenario, &patterns, settings)?;
     rows(&lines, &patterns[0], settings)?;
     let mut mesh = sew::sew(scenario, &patterns, settings, &lines)?;
     mesh.membrane = waviness::wavy(&mesh.points, settings.waviness_m, settings.seed);
@@ -196,7 +196,7 @@ fn fits(scenario: &Scenario, patterns: &[Pattern], settings: &RobotSettings) -> 
     Ok(())
 }
 
-fn rows(lines: &Lines, pattern: &Pattern, settings: &RobotSettings) -> Result<()> {
+fn rows(lines: &GridLines, pattern: &Pattern, settings: &RobotSettings) -> Result<()> {
     let along = lines.strips.iter().flat_map(|strip| strip.welds.windows(2)).map(|w| w[1][0].saturating_sub(w[0][1]));
     let across = lines.strips.iter().map(|strip| strip.s_m.len() - 1);
     let fewest = along.chain(across).min().unwrap_or(0);

@@ -29,8 +29,8 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use models::actuators::pattern::{Film, Joint, Pattern};
-use models::fabrics::{Kind, Orthotropic, Ply, WrinklingFilm, material, wrinkling_load_n_per_m};
+use models::actuators::pattern::{ChamberBottom, Film, Pattern};
+use models::fabrics::{InlinedFabric, Orthotropic, Ply, WrinklingFilm, material, wrinkling_load_n_per_m};
 use models::{Fabric, Scenario};
 
 use super::RobotSettings;
@@ -125,7 +125,7 @@ impl Plies<'_> {
     /// A film with the load of its wrinkles over a length \[m\]; stuck plies are too stiff for such wrinkles.
     fn wrinkling(&self, fabric: &Arc<dyn Fabric>, length_m: f64) -> Arc<dyn Fabric> {
         match (fabric.kind(), &self.wrinkles) {
-            (Kind::NeoHookean(film), Some(wrinkles)) => {
+            (InlinedFabric::NeoHookean(film), Some(wrinkles)) => {
                 let bending_nm = self.settings.bending_factor * mean_stiffness(film) * film.thickness_m.powi(2) / 12.0;
                 let load_n_per_m = wrinkling_load_n_per_m(bending_nm, wrinkles.tension_n_per_m, length_m);
                 Arc::new(WrinklingFilm { film: *film, load_n_per_m })
@@ -136,13 +136,13 @@ impl Plies<'_> {
 
     /// Film and bottom sheet on the wall, if the pattern has them.
     fn stuck(&self) -> Vec<Ply> {
-        let Joint::Bonded { warp_rad, .. } = self.pattern.joint else { return Vec::new() };
+        let ChamberBottom::Bonded { warp_rad, .. } = self.pattern.joint else { return Vec::new() };
         let bottom = ply(&self.sheet, self.slant_rad + warp_rad);
         self.film().map(|film| ply(&film, 0.0)).into_iter().chain([bottom]).collect()
     }
 
     fn film(&self) -> Option<Arc<dyn Fabric>> {
-        let Joint::Bonded { film, .. } = self.pattern.joint else { return None };
+        let ChamberBottom::Bonded { film, .. } = self.pattern.joint else { return None };
         let (e_pa, thickness_m) = match film {
             Film::Tape => (self.settings.tape_e_pa, self.settings.tape_m),
             Film::Glue => (self.settings.glue_e_pa, self.settings.glue_m),

@@ -1,10 +1,10 @@
 //! One algorithm from any pattern to elements: the wall cut into wall, face and seams, and the sheet panel by panel.
 
 use models::Scenario;
-use models::actuators::pattern::{Joint, Panel, Pattern};
+use models::actuators::pattern::{ChamberBottom, Panel, Pattern};
 
 use super::RobotSettings;
-use super::lines::{Lines, StripLines, weld_m};
+use super::lines::{GridLines, StripLines, weld_m};
 use crate::Result;
 use crate::mesh::generate::{Around, Cap, Tube, tube};
 use crate::mesh::{Mesh, Part};
@@ -36,7 +36,12 @@ pub(super) fn plain(name: &str) -> &str {
 }
 
 /// The mesh of a robot; a pattern for every strip.
-pub(super) fn sew(scenario: &Scenario, patterns: &[Pattern], settings: &RobotSettings, lines: &Lines) -> Result<Mesh> {
+pub(super) fn sew(
+    scenario: &Scenario,
+    patterns: &[Pattern],
+    settings: &RobotSettings,
+    lines: &GridLines,
+) -> Result<Mesh> {
     let mut mesh = body(scenario, lines)?;
     mesh.sets.remove("middle");
     let wall = std::mem::take(&mut mesh.parts[0]);
@@ -76,7 +81,7 @@ pub(super) fn sew(scenario: &Scenario, patterns: &[Pattern], settings: &RobotSet
 }
 
 /// The body as a tube with its nodes on the lines.
-fn body(scenario: &Scenario, lines: &Lines) -> Result<Mesh> {
+fn body(scenario: &Scenario, lines: &GridLines) -> Result<Mesh> {
     let (n, rings) = (lines.angles.len(), lines.x_m.len());
     let mut mesh = tube(&Tube {
         radius_m: scenario.radius_m,
@@ -97,18 +102,18 @@ fn body(scenario: &Scenario, lines: &Lines) -> Result<Mesh> {
     Ok(mesh)
 }
 
-fn sorted(sewers: &[Sewer], lines: &Lines, quads: &[[u32; 4]]) -> Vec<Part> {
+fn sorted(sewers: &[Sewer], lines: &GridLines, quads: &[[u32; 4]]) -> Vec<Part> {
     let n = lines.angles.len();
     let mut parts = vec![Part::round(BODY, WALL, Vec::new())];
     for (e, quad) in quads.iter().enumerate() {
         let (row, column) = (e / n, e % n);
         let placed = sewers.iter().map(|sewer| (sewer, sewer.place(row, column)));
-        let (name, front) = match placed.into_iter().find(|(_, place)| *place != Place::Beside) {
-            None | Some((_, Place::Beside)) => (WALL.into(), None),
-            Some((_, Place::Weld(layers))) => (format!("{SEAM}{layers}"), None),
-            Some((_, Place::Margin)) => (MARGIN.into(), None),
-            Some((sewer, Place::Under)) if sewer.pattern.joint == Joint::Seams => (WALL.into(), None),
-            Some((sewer, Place::Under)) => (of_strip(FACE, sewer.strip), Some(of_strip(ACTUATOR, sewer.strip))),
+        let (name, front) = match placed.into_iter().find(|(_, place)| *place != WallPlace::Beside) {
+            None | Some((_, WallPlace::Beside)) => (WALL.into(), None),
+            Some((_, WallPlace::Weld(layers))) => (format!("{SEAM}{layers}"), None),
+            Some((_, WallPlace::Margin)) => (MARGIN.into(), None),
+            Some((sewer, WallPlace::Under)) if sewer.pattern.joint == ChamberBottom::Seams => (WALL.into(), None),
+            Some((sewer, WallPlace::Under)) => (of_strip(FACE, sewer.strip), Some(of_strip(ACTUATOR, sewer.strip))),
         };
         let at = parts.iter().position(|p| p.name == name).unwrap_or_else(|| {
             parts.push(Part { front, ..Part::round(BODY, &name, Vec::new()) });
@@ -136,32 +141,32 @@ struct Sewer<'a> {
     strip: usize,
     pattern: &'a Pattern,
     own: &'a StripLines,
-    lines: &'a Lines,
+    lines: &'a GridLines,
     radius_m: f64,
     gap_m: f64,
     weld_m: f64,
 }
 
 impl Sewer<'_> {
-    fn place(&self, row: usize, column: usize) -> Place {
+    fn place(&self, row: usize, column: usize) -> WallPlace {
         let (s, welds) = (&self.own.s_m, &self.own.welds);
         let [first, last] = [welds[0][0], welds[welds.len() - 1][1]];
         if column < self.own.first || column + 1 >= self.own.first + s.len() || !(first..last).contains(&row) {
-            return Place::Beside;
+            return WallPlace::Beside;
         }
         let column = column - self.own.first;
         let middle = 0.5 * (s[column] + s[column + 1]);
         let side_weld_m = where_so(self.pattern.side_welds, self.weld_m);
         if middle.abs() > 0.5 * self.pattern.width_m + side_weld_m {
-            return Place::Margin;
+            return WallPlace::Margin;
         }
         if middle.abs() > 0.5 * self.pattern.width_m {
             // The sheet's edge on the wall, and the bottom sheet between them.
-            return Place::Weld(2 + self.pattern.layers_at(middle));
+            return WallPlace::Weld(2 + self.pattern.layers_at(middle));
         }
         match welds.iter().any(|weld| (weld[0]..weld[1]).contains(&row)) {
-            true => Place::Weld(1 + self.pattern.layers_at(middle)),
-            false => Place::Under,
+            true => WallPlace::Weld(1 + self.pattern.layers_at(middle)),
+            false => WallPlace::Under,
         }
     }
 
@@ -181,7 +186,7 @@ impl Sewer<'_> {
         for ring in first..=last {
             let inside = first < ring && ring < last;
             let mut row: Vec<u32> = path.iter().map(|stop| self.node(points, ring, stop, inside)).collect();
-            if inside && self.pattern.joint == Joint::Seams {
+            if inside && self.pattern.joint == ChamberBottom::Seams {
                 // The sheet runs round: its last stop is its first, whose node is not needed twice.
                 points.pop();
                 row[path.len() - 1] = row[0];
@@ -210,7 +215,7 @@ impl Sewer<'_> {
         }
         let ends = [0, stops.len() - 1];
         let level = match self.pattern.joint {
-            Joint::Seams => 0.5 * (panels[0].level + panels[panels.len() - 1].level) as f64,
+            ChamberBottom::Seams => 0.5 * (panels[0].level + panels[panels.len() - 1].level) as f64,
             _ => 0.0,
         };
         ends.iter().for_each(|end| stops[*end].level = level);
@@ -229,7 +234,7 @@ impl Sewer<'_> {
 
 /// Where an element of the wall is.
 #[derive(PartialEq)]
-enum Place {
+enum WallPlace {
     Beside,
     Under,
     Weld(usize),

@@ -98,7 +98,7 @@ fn compressed_sheets_of_the_epam_carry_the_load_of_their_wrinkles_and_those_of_t
         let (_, problem) = crate::robot::shipped("epam", settings).unwrap();
         let at = problem.mesh.parts.iter().position(|p| p.name == part).unwrap();
         match problem.sections[at].plies[0].fabric.kind() {
-            models::fabrics::Kind::WrinklingFilm(film) => Some(film.load_n_per_m),
+            models::fabrics::InlinedFabric::WrinklingFilm(film) => Some(film.load_n_per_m),
             _ => None,
         }
     };
@@ -118,7 +118,7 @@ fn the_body_holds_the_prism_of_its_section_and_the_pouches_what_lies_between_the
     let scenario = shipped("epam");
     let pattern = (scenario.actuator.kind.pattern)(&scenario.actuator.shape);
     let problem = robot("epam", &settings);
-    let lines = Lines::of(&scenario, &[pattern], &settings).unwrap();
+    let lines = GridLines::of(&scenario, &[pattern], &settings).unwrap();
     let turn = lines.angles[0] + std::f64::consts::TAU;
     let next = lines.angles.iter().skip(1).chain(std::iter::once(&turn));
     let section: f64 = lines.angles.iter().zip(next).map(|(a, b)| 0.5 * 0.04f64.powi(2) * (b - a).sin()).sum();
@@ -287,10 +287,10 @@ fn a_wavy_robot_starts_without_membrane_stress_and_holds_what_the_pattern_holds(
 fn rows_beside_the_welds_of_a_folded_sheet_are_two_thirds_of_a_weld_and_grow_by_a_quarter() {
     let of = |scenario: &Scenario, settings: &RobotSettings| {
         let pattern = (scenario.actuator.kind.pattern)(&scenario.actuator.shape);
-        Lines::of(scenario, &[pattern.between_welds(lines::weld_m(settings))], settings).unwrap()
+        GridLines::of(scenario, &[pattern.between_welds(lines::weld_m(settings))], settings).unwrap()
     };
     let lines = |name: &str, settings: &RobotSettings| of(&shipped(name), settings);
-    let check = |lines: &Lines, first_m: f64, row_m: f64| {
+    let check = |lines: &GridLines, first_m: f64, row_m: f64| {
         for pair in lines.strips[0].welds.windows(2) {
             let rows: Vec<f64> = lines.x_m[pair[0][1]..=pair[1][0]].windows(2).map(|x| x[1] - x[0]).collect();
             let n = rows.len();

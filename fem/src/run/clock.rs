@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 /// Times and steps of a run \[s\].
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub(super) struct Clock {
+pub(super) struct RunClock {
     pub step: u64,
     /// Time of loads and supports; it stops while the run waits.
     pub time_s: f64,
@@ -24,7 +24,7 @@ pub(super) struct Clock {
     pub gain: f64,
 }
 
-impl Clock {
+impl RunClock {
     pub(crate) fn runs_s(&self) -> f64 {
         if self.waits { self.waited_s } else { self.time_s }
     }

@@ -16,7 +16,7 @@ pub(super) struct Driven {
 
 /// A rigid body: nodes that keep their distances.
 #[derive(Debug, Clone)]
-pub(super) struct Body {
+pub(super) struct RigidBody {
     pub nodes: Vec<u32>,
     mass: Vec<f64>,
     /// Positions relative to the centre of mass at the start \[m\].
@@ -75,19 +75,19 @@ impl Driven {
     }
 }
 
-pub(super) fn bodies(problem: &Problem, mesh: &Mesh, mass: &[f64]) -> Result<Vec<Body>> {
+pub(super) fn bodies(problem: &Problem, mesh: &Mesh, mass: &[f64]) -> Result<Vec<RigidBody>> {
     let make = |rigid: &crate::problem::Rigid| {
         let nodes = mesh.set(&rigid.set, "rigid")?;
         if nodes.len() < 3 {
             return Err(FemError::Problem(format!("rigid: node set `{}` has fewer than 3 nodes", rigid.set)));
         }
-        Ok(Body::new(nodes, mass, |i| mesh.start_of(i)))
+        Ok(RigidBody::new(nodes, mass, |i| mesh.start_of(i)))
     };
     problem.rigid.iter().map(make).collect()
 }
 
-impl Body {
-    fn new(nodes: &[u32], mass: &[f64], at: impl Fn(usize) -> V3) -> Body {
+impl RigidBody {
+    fn new(nodes: &[u32], mass: &[f64], at: impl Fn(usize) -> V3) -> RigidBody {
         let own: Vec<f64> = nodes.iter().map(|n| mass[*n as usize]).collect();
         let total: f64 = own.iter().sum();
         let mut centre = [0.0; 3];
@@ -97,7 +97,7 @@ impl Body {
         }
         let arm = nodes.iter().map(|n| at(*n as usize)).map(|x| [0, 1, 2].map(|k| x[k] - centre[k])).collect();
         let now = BodyNow { centre, velocity: [0.0; 3], spin: [0.0; 3], turn: [1.0, 0.0, 0.0, 0.0] };
-        Body { nodes: nodes.to_vec(), mass: own, arm, now }
+        RigidBody { nodes: nodes.to_vec(), mass: own, arm, now }
     }
 
     /// One step of the body under the forces on its nodes; sets the velocities that bring them to their places.

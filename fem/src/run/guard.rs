@@ -1,6 +1,6 @@
 //! Stops for runs whose result cannot be trusted.
 
-use models::fabrics::Kind;
+use models::fabrics::InlinedFabric;
 use models::{Account, Pose};
 
 use super::clock::{give_tied_bounds, stable_step};
@@ -157,7 +157,7 @@ impl Simulation {
             // A quadrilateral is inside out when most of its corners turn against its mean normal. One that is stretched in no
             // direction is fabric in folds, which has no shape; so is one of a film that wrinkles below the mesh.
             let c = [dot(f1, f1), dot(f2, f2), dot(f1, f2)];
-            let wrinkles = matches!(self.sheet.fabrics[element.part].kind(), Kind::WrinklingFilm(_));
+            let wrinkles = matches!(self.sheet.fabrics[element.part].kind(), InlinedFabric::WrinklingFilm(_));
             if element.corners == 4 && !wrinkles && largest(c[0], c[1], c[2]) > 1.0 {
                 let against = (0..4).filter(|n| {
                     let (here, next, last) = (at(*n), at((n + 1) % 4), at((n + 3) % 4));

@@ -42,7 +42,7 @@ pub(super) fn gain(
     let tangents = sheet.tangents(x.as_flattened(), &mut others);
     let inverse = |m: &f64| if *m > 0.0 { 1.0 / m } else { 0.0 };
     let inverse = mass.iter().map(inverse).collect();
-    let mut whole = Whole { tangents, rest: others, ties, inverse, selective, rate_1_s: 2.0 / nodes_s };
+    let mut whole = StepMatrix { tangents, rest: others, ties, inverse, selective, rate_1_s: 2.0 / nodes_s };
     let start = whole.start(sheet, x);
     let mut gain = 2.0 / (SURE * whole.highest_1_s2(&start).sqrt() * nodes_s);
     if selective.is_some() && gain > 1.0 {
@@ -55,7 +55,7 @@ pub(super) fn gain(
 }
 
 /// M⁻¹ (K + 2 C/Δt), symmetric in the product uᵀ (K + 2 C/Δt) v.
-struct Whole<'a> {
+struct StepMatrix<'a> {
     tangents: Vec<Tangent>,
     rest: Vec<f64>,
     ties: &'a [Tie],
@@ -65,7 +65,7 @@ struct Whole<'a> {
     rate_1_s: f64,
 }
 
-impl Whole<'_> {
+impl StepMatrix<'_> {
     /// Stiffness of one step with its viscosity, (K + 2 C/Δt) v.
     fn stiff(&self, v: &Nodes) -> Vec<[f64; 4]> {
         let u = self.tied(v);

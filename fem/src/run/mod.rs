@@ -30,7 +30,7 @@ use models::{Account, Pose, RowKind};
 use serde::{Deserialize, Serialize};
 
 use crate::bytes::{pack, unpack};
-use crate::contact::Contact;
+use crate::contact::LayerContact;
 use crate::contact::edges::Edges;
 use crate::problem::Settings;
 use crate::sheet::Sheet;
@@ -38,8 +38,8 @@ use crate::sheet::order::Order;
 use crate::transient::{dissipated, stored, sum_of, supplied};
 use crate::vec3::{Nodes, V3};
 use crate::{FemError, Mesh, Problem, Result, Transient};
-use clock::{Books, Clock};
-use constraint::{Body, BodyNow, Driven};
+use clock::{Books, RunClock};
+use constraint::{BodyNow, Driven, RigidBody};
 pub(crate) use guard::LESS_HOURGLASS;
 use reaction::Reactions;
 use selective::Selective;
@@ -52,10 +52,10 @@ pub struct Simulation {
     mesh: Mesh,
     sheet: Sheet,
     terms: Vec<Box<dyn Transient>>,
-    contact: Option<Contact>,
+    contact: Option<LayerContact>,
     edges: Option<Edges>,
     driven: Vec<Driven>,
-    bodies: Vec<Body>,
+    bodies: Vec<RigidBody>,
     reactions: Reactions,
     tie_offset: Vec<[f64; 3]>,
     /// Mass of each node, scaling included \[kg\].
@@ -75,7 +75,7 @@ pub struct Simulation {
     v: Vec<[f64; 4]>,
     selective: Option<Selective>,
     force: Vec<[f64; 4]>,
-    clock: Clock,
+    clock: RunClock,
     books: Books,
     /// Threads of the run; `None` while they work.
     team: Option<Team>,
@@ -84,8 +84,8 @@ pub struct Simulation {
 
 /// What a checkpoint holds of a run.
 #[derive(Serialize, Deserialize)]
-struct State {
-    clock: Clock,
+struct RunState {
+    clock: RunClock,
     books: Books,
     x: Vec<[f64; 4]>,
     v: Vec<[f64; 4]>,
@@ -144,7 +144,7 @@ impl Simulation {
     /// [`FemError::Problem`] if it belongs to another problem or is damaged.
     pub fn resume(problem: &Problem, saved: &[u8]) -> Result<Simulation> {
         let misfit = || FemError::Problem("the saved state does not fit this problem: start the run afresh".into());
-        let state: State = unpack(saved).ok_or_else(misfit)?;
+        let state: RunState = unpack(saved).ok_or_else(misfit)?;
         let mut run = Simulation::prepared(problem, Some(&state.masses))?;
         run.restore(state, false).ok_or_else(misfit)?;
         Ok(run)
@@ -157,7 +157,7 @@ impl Simulation {
     /// [`FemError::Problem`] if the state does not fit, or a new obstacle is where the structure is.
     pub fn go_on(problem: &Problem, saved: &[u8]) -> Result<Simulation> {
         let misfit = || FemError::Problem("the saved state does not fit this problem".into());
-        let state: State = unpack(saved).ok_or_else(misfit)?;
+        let state: RunState = unpack(saved).ok_or_else(misfit)?;
         let mut run = Simulation::prepared(problem, Some(&state.masses))?;
         let left = run.restore(state, true).ok_or_else(misfit)?;
         if left.iter().any(|name| name == "obstacles") {
@@ -171,7 +171,7 @@ impl Simulation {
     /// Packs the state from which the same program continues bit by bit.
     pub fn save(&self) -> Vec<u8> {
         let pose = Pose::nodes(self.x.as_flattened());
-        pack(&State {
+        pack(&RunState {
             clock: self.clock,
             books: self.books,
             x: self.x.clone(),
@@ -186,7 +186,7 @@ impl Simulation {
     }
 
     /// Every term gets its state; loads need none where the run goes on with others. Returns the names of loads that begin.
-    fn restore(&mut self, mut state: State, goes_on: bool) -> Option<Vec<String>> {
+    fn restore(&mut self, mut state: RunState, goes_on: bool) -> Option<Vec<String>> {
         let contact = self.contact.iter_mut().map(|c| c as &mut dyn Transient);
         let contact = contact.chain(self.edges.iter_mut().map(|e| e as &mut dyn Transient));
         let mut begin = Vec::new();

@@ -45,7 +45,7 @@ pub(super) struct Selective {
     ends: Vec<u32>,
     /// Weights wᵢⱼ of the links, node after node \[kg\].
     weights: Vec<f64>,
-    rows: Vec<Row>,
+    rows: Vec<NodeMass>,
     /// α of the passes, the same forwards and backwards, so that M⁻¹ stays symmetric where nodes are held.
     passes: Vec<f64>,
     /// Prescribed axes, which stand still or are set by others.
@@ -61,7 +61,7 @@ pub(super) struct Selective {
 }
 
 #[derive(Debug, Clone, Copy)]
-struct Row {
+struct NodeMass {
     mass: f64,
     /// 1/m; 0 for nodes without mass.
     inverse: f64,
@@ -102,7 +102,7 @@ impl Selective {
             ends.extend(row.iter().map(|(node, _)| *node));
             weights.extend(row.iter().map(|(node, c)| 0.5 * SHARE * c * light(i).min(light(*node as usize))));
             let inverse = if mass[i] > 0.0 { 1.0 / mass[i] } else { 0.0 };
-            rows.push(Row { mass: mass[i], inverse, shed: inverse * weights[from..].iter().sum::<f64>() });
+            rows.push(NodeMass { mass: mass[i], inverse, shed: inverse * weights[from..].iter().sum::<f64>() });
             first.push(ends.len() as u32);
         }
         Selective {
@@ -163,7 +163,7 @@ impl Selective {
     /// Updates velocities and positions and leaves the forces at zero; returns kinetic energy and Σ m ū·v̄.
     pub(super) fn step(&mut self, update: Update, force: &mut Nodes, v: &mut Nodes, x: &mut Nodes) -> [f64; 2] {
         let (mut u, mut half) = (std::mem::take(&mut self.u), std::mem::take(&mut self.half));
-        let across = push(Push { update, rows: &self.rows, force, u: &mut u, v });
+        let across = push(MomentumPush { update, rows: &self.rows, force, u: &mut u, v });
         let mut next = std::mem::take(&mut self.next);
         let (first, between) = (self.passes[0], &self.passes[1..self.passes.len() - 1]);
         self.smooth(update.arch, first, &u, &mut half);
@@ -175,7 +175,7 @@ impl Selective {
         }
         self.held.clear();
         self.held.extend(self.fixed.iter().map(|(node, _)| x[*node as usize]));
-        let now = place(Place { update, all: self, half: &half, u: &u, begin: 0, v, x });
+        let now = place(NodeMove { update, all: self, half: &half, u: &u, begin: 0, v, x });
         self.rest(v);
         for ((node, axes), held) in self.fixed.iter().zip(&self.held) {
             for k in (0..3).filter(|k| axes[*k]) {
@@ -272,31 +272,31 @@ fn dot(a: &[f64; 4], b: &[f64; 4]) -> f64 {
 }
 
 /// Some nodes whose momenta are pushed.
-struct Push<'a> {
+struct MomentumPush<'a> {
     update: Update,
-    rows: &'a [Row],
+    rows: &'a [NodeMass],
     force: &'a mut [[f64; 4]],
     u: &'a mut [[f64; 4]],
     v: &'a [[f64; 4]],
 }
 
 /// Σ m v(n−½)·u(n+½) over the rows of a piece, halved recursively so that its order is fixed.
-fn push(piece: Push) -> f64 {
+fn push(piece: MomentumPush) -> f64 {
     let count = piece.rows.len();
     if count <= PIECE {
         return piece.update.arch.dispatch(piece);
     }
-    let Push { update, rows, force, u, v } = piece;
+    let MomentumPush { update, rows, force, u, v } = piece;
     let half = count / 2;
     let (rows, force) = (rows.split_at(half), force.split_at_mut(half));
     let (u, v) = (u.split_at_mut(half), v.split_at(half));
-    let low = Push { update, rows: rows.0, force: force.0, u: u.0, v: v.0 };
-    let high = Push { update, rows: rows.1, force: force.1, u: u.1, v: v.1 };
+    let low = MomentumPush { update, rows: rows.0, force: force.0, u: u.0, v: v.0 };
+    let high = MomentumPush { update, rows: rows.1, force: force.1, u: u.1, v: v.1 };
     let (low, high) = rayon::join(|| push(low), || push(high));
     low + high
 }
 
-impl pulp::WithSimd for Push<'_> {
+impl pulp::WithSimd for MomentumPush<'_> {
     type Output = f64;
 
     #[inline(always)]
@@ -341,7 +341,7 @@ impl pulp::WithSimd for Smooth<'_> {
 }
 
 /// Some nodes that get their velocities and move.
-struct Place<'a> {
+struct NodeMove<'a> {
     update: Update,
     all: &'a Selective,
     half: &'a [[f64; 4]],
@@ -352,21 +352,21 @@ struct Place<'a> {
 }
 
 /// Σ m u·v over the nodes of a piece, halved recursively so that its order is fixed.
-fn place(piece: Place) -> f64 {
+fn place(piece: NodeMove) -> f64 {
     let count = piece.x.len();
     if count <= PIECE {
         return piece.update.arch.dispatch(piece);
     }
-    let Place { update, all, half, u, begin, v, x } = piece;
+    let NodeMove { update, all, half, u, begin, v, x } = piece;
     let middle = count / 2;
     let (v, x) = (v.split_at_mut(middle), x.split_at_mut(middle));
-    let low = Place { update, all, half, u, begin, v: v.0, x: x.0 };
-    let high = Place { update, all, half, u, begin: begin + middle, v: v.1, x: x.1 };
+    let low = NodeMove { update, all, half, u, begin, v: v.0, x: x.0 };
+    let high = NodeMove { update, all, half, u, begin: begin + middle, v: v.1, x: x.1 };
     let (low, high) = rayon::join(|| place(low), || place(high));
     low + high
 }
 
-impl pulp::WithSimd for Place<'_> {
+impl pulp::WithSimd for NodeMove<'_> {
     type Output = f64;
 
     #[inline(always)]

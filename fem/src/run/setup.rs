@@ -3,12 +3,12 @@
 use models::Pose;
 
 use super::clock::{damped, give_tied_bounds, give_tied_masses, stable_step};
-use super::constraint::{Body, Driven, bodies, driven};
+use super::constraint::{Driven, RigidBody, bodies, driven};
 use super::reaction::Reactions;
 use super::selective::Selective;
 use super::team::Team;
-use super::{Books, Clock, Simulation, guard, highest};
-use crate::contact::Contact;
+use super::{Books, RunClock, Simulation, guard, highest};
+use crate::contact::LayerContact;
 use crate::contact::edges::Edges;
 use crate::policy;
 use crate::problem::{MassScaling, Settings};
@@ -67,7 +67,7 @@ impl Simulation {
             v: vec![[0.0; 4]; count],
             selective: still.selective(settings, &mesh, &mass).map(Selective::at_rest),
             force: vec![[0.0; 4]; count],
-            clock: Clock { dt_s, longest_s: dt_s, gain, ..Clock::default() },
+            clock: RunClock { dt_s, longest_s: dt_s, gain, ..RunClock::default() },
             books: Books { scale: guard::least_scale_j(problem, &mesh, &sheet, &true_mass), ..Books::default() },
             settings: settings.clone(),
             fastest_m_s: Some(settings.guards.speed_m_s).filter(|v| *v > 0.0).unwrap_or_else(|| sound_speed(&sheet)),
@@ -175,7 +175,7 @@ fn carried(problem: &Problem, mesh: &Mesh, driven: &[Driven]) -> Result<Vec<bool
 }
 
 /// Axes whose velocities are set; `fixed` gets the nodes of bodies and ties, too.
-fn moved(driven: &[Driven], bodies: &[Body], mesh: &Mesh, fixed: &mut [[bool; 3]]) -> Vec<[bool; 3]> {
+fn moved(driven: &[Driven], bodies: &[RigidBody], mesh: &Mesh, fixed: &mut [[bool; 3]]) -> Vec<[bool; 3]> {
     let mut moved = vec![[false; 3]; fixed.len()];
     for (node, axes) in driven.iter().flat_map(|d| d.nodes.iter().map(|n| (*n, d.axes))) {
         (0..3).for_each(|k| moved[node as usize][k] |= axes[k]);
@@ -196,12 +196,12 @@ fn contact(
     order: &Order,
     mass: &[f64],
     dt_s: f64,
-) -> Result<Contact> {
-    Contact::new(mesh, settings, mass, dt_s).map_err(|fault| {
+) -> Result<LayerContact> {
+    LayerContact::new(mesh, settings, mass, dt_s).map_err(|fault| {
         let mass: Vec<f64> = order.new.iter().map(|place| mass[*place as usize]).collect();
         let start = order.new.iter().map(|place| mesh.start[*place as usize]).collect();
         let users = Mesh { start, ..problem.mesh.clone() };
-        Contact::new(&users, settings, &mass, dt_s).err().unwrap_or(fault)
+        LayerContact::new(&users, settings, &mass, dt_s).err().unwrap_or(fault)
     })
 }
 

@@ -118,8 +118,13 @@ impl Simulation {
         }
         constraint::hand_over(&self.mesh.ties, &mut self.force);
         if let Some(edges) = &mut self.edges {
-            let step =
-                hold::Step { x: &self.x, v: &self.v, dv_s: dv, dt_s: dt, damping_1_s: self.settings.mass_damping_1_s };
+            let step = hold::EdgeStep {
+                x: &self.x,
+                v: &self.v,
+                dv_s: dv,
+                dt_s: dt,
+                damping_1_s: self.settings.mass_damping_1_s,
+            };
             edges.hold(&step, &mut self.force);
         }
         // Only where somebody will look: before the supports set velocities, and after.

@@ -21,7 +21,7 @@ impl Update {
     /// Updates everything; returns kinetic energy and Σ m |v̄|².
     pub(super) fn all(self, mass: &[f64], force: &mut Nodes, v: &mut Nodes, x: &mut Nodes) -> [f64; 2] {
         if mass.len() <= PIECE {
-            return self.arch.dispatch(Piece { update: self, mass, force, v, x });
+            return self.arch.dispatch(UpdatePiece { update: self, mass, force, v, x });
         }
         let half = (mass.len() / 2).next_multiple_of(LANES);
         let (mass, force) = (mass.split_at(half), force.split_at_mut(half));
@@ -32,7 +32,7 @@ impl Update {
 }
 
 /// A piece of the update as a value, compiled for every set of vector instructions.
-struct Piece<'a> {
+struct UpdatePiece<'a> {
     update: Update,
     mass: &'a [f64],
     force: &'a mut [[f64; 4]],
@@ -40,12 +40,12 @@ struct Piece<'a> {
     x: &'a mut [[f64; 4]],
 }
 
-impl pulp::WithSimd for Piece<'_> {
+impl pulp::WithSimd for UpdatePiece<'_> {
     type Output = [f64; 2];
 
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, simd: S) -> [f64; 2] {
-        let Piece { update, mass, force, v, x } = self;
+        let UpdatePiece { update, mass, force, v, x } = self;
         let mut tally = [[0.0; LANES]; 2];
         let (pairs, last) = mass.as_chunks::<2>();
         let even = pairs.len() * 2;

@@ -2,7 +2,7 @@
 
 use super::Source;
 pub use crate::output::deck::Solver;
-use crate::output::{Frame, deck, vtu};
+use crate::output::{MeshFrame, deck, vtu};
 use crate::{FemError, Result, Simulation};
 use std::path::Path;
 
@@ -42,7 +42,7 @@ pub fn export(source: &Source, path: &Path, solver: Solver) -> Result<Export> {
         }
         Some("vtu") => {
             let start = Simulation::new(problem).map_err(|error| source.refused(error))?;
-            vtu::write_vtu(path, &problem.mesh, &Frame::of(&start))?;
+            vtu::write_vtu(path, &problem.mesh, &MeshFrame::of(&start))?;
         }
         _ => {
             let message = format!("the ending of {} names no known format", path.display());

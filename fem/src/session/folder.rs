@@ -65,7 +65,7 @@ pub(super) struct Workplace {
 }
 
 #[derive(Debug)]
-enum Found {
+enum FolderState {
     Nothing,
     Unfinished(RunIdentity),
     Finished,
@@ -81,9 +81,9 @@ pub fn is_finished(folder: &Path) -> bool {
 /// Whether the run in the folder, complete or not, is of this case; `None` if there is none.
 pub(super) fn is_of(folder: &Path, text: &str) -> Result<Option<bool>> {
     Ok(match look(folder)? {
-        Found::Unfinished(marker) => Some(marker.case_sha256 == sha256(text.as_bytes())),
-        Found::Finished => Some(case_sha256(folder).is_some_and(|of| of == sha256(text.as_bytes()))),
-        Found::Nothing | Found::Foreign(_) => None,
+        FolderState::Unfinished(marker) => Some(marker.case_sha256 == sha256(text.as_bytes())),
+        FolderState::Finished => Some(case_sha256(folder).is_some_and(|of| of == sha256(text.as_bytes()))),
+        FolderState::Nothing | FolderState::Foreign(_) => None,
     })
 }
 
@@ -94,33 +94,33 @@ pub(super) fn is_of(folder: &Path, text: &str) -> Result<Option<bool>> {
 /// The folder holds another run, or files that are none of ours, or another process writes to it.
 pub(super) fn open(folder: &Path, text: &str, resume: bool, force: bool) -> Result<Option<Workplace>> {
     let refuse = |cause: &str, help: &str| Err(FemError::folder(folder, cause, help));
-    if matches!(look(&aside(folder))?, Found::Finished) {
+    if matches!(look(&aside(folder))?, FolderState::Finished) {
         mend(folder, &aside(folder)).map_err(|cause| unwritable(folder, &cause))?;
     }
     match (look(folder)?, resume, force) {
-        (Found::Nothing, ..) | (Found::Unfinished(_), false, true) => take(folder, folder, None).map(Some),
-        (Found::Unfinished(marker), true, _) => {
+        (FolderState::Nothing, ..) | (FolderState::Unfinished(_), false, true) => take(folder, folder, None).map(Some),
+        (FolderState::Unfinished(marker), true, _) => {
             same_case(folder, text, &marker.case_sha256)?;
             take(folder, folder, Some(marker)).map(Some)
         }
-        (Found::Unfinished(_), false, false) => {
+        (FolderState::Unfinished(_), false, false) => {
             let message = "it holds an interrupted run";
             let help = "add --resume to go on with it, or --force to start again";
             refuse(message, help)
         }
-        (Found::Finished, _, true) => open_beside(folder, text, resume).map(Some),
-        (Found::Finished, true, false) => {
+        (FolderState::Finished, _, true) => open_beside(folder, text, resume).map(Some),
+        (FolderState::Finished, true, false) => {
             same_case(folder, text, &case_sha256(folder).unwrap_or_default())?;
             // A kill after the last file of the run leaves them.
             ["checkpoint", "checkpoint.previous", LOCK].iter().try_for_each(|name| remove(&folder.join(name)))?;
             Ok(None)
         }
-        (Found::Finished, false, false) => {
+        (FolderState::Finished, false, false) => {
             let message = "it holds a finished run";
             let help = "choose another folder with --out, or add --force to replace it";
             refuse(message, help)
         }
-        (Found::Foreign(name), ..) => {
+        (FolderState::Foreign(name), ..) => {
             let message = &format!("it holds other files ({name})");
             let help = "choose a new or empty folder with --out";
             refuse(message, help)
@@ -141,11 +141,11 @@ pub(crate) fn reopen(folder: &Path, marker: RunIdentity, keep: &dyn Fn() -> Resu
 fn open_beside(folder: &Path, text: &str, resume: bool) -> Result<Workplace> {
     let beside = named_like(folder, ".new");
     match look(&beside)? {
-        Found::Unfinished(marker) if resume => {
+        FolderState::Unfinished(marker) if resume => {
             same_case(&beside, text, &marker.case_sha256)?;
             take(&beside, folder, Some(marker))
         }
-        Found::Foreign(name) => {
+        FolderState::Foreign(name) => {
             let cause = format!("it holds other files ({name})");
             let help = "move that folder away";
             Err(FemError::folder(&beside, cause, help))
@@ -185,24 +185,24 @@ fn same_case(folder: &Path, text: &str, case_sha256: &str) -> Result<()> {
     Err(FemError::folder(folder, cause, help))
 }
 
-fn look(folder: &Path) -> Result<Found> {
+fn look(folder: &Path) -> Result<FolderState> {
     if !folder.exists() {
-        return Ok(Found::Nothing);
+        return Ok(FolderState::Nothing);
     }
     // What a kill between two files can leave behind is of no use to anyone.
     let names: Vec<String> = sorted(folder)?.into_iter().filter(|n| n != LOCK && !is_partial(n)).collect();
     let has = |name: &str| names.iter().any(|n| n == name);
     if let Some(name) = foreign(folder, &names)? {
-        return Ok(Found::Foreign(name));
+        return Ok(FolderState::Foreign(name));
     }
     Ok(match names.first() {
-        None => Found::Nothing,
+        None => FolderState::Nothing,
         Some(_) if has(MARKER) => match read_marker(folder).filter(|m| is_believed(m, folder, &names)) {
-            Some(marker) => Found::Unfinished(marker),
-            None => Found::Foreign(format!("{MARKER}, and not the {CASE} that it names")),
+            Some(marker) => FolderState::Unfinished(marker),
+            None => FolderState::Foreign(format!("{MARKER}, and not the {CASE} that it names")),
         },
-        Some(_) if has(LAST) && has("summary.json") => Found::Finished,
-        Some(first) => Found::Foreign(first.clone()),
+        Some(_) if has(LAST) && has("summary.json") => FolderState::Finished,
+        Some(first) => FolderState::Foreign(first.clone()),
     })
 }
 
@@ -305,7 +305,7 @@ impl Workplace {
         let exchanged = exchange(&self.folder, &self.target, &aside(&self.target));
         exchanged.map_err(|cause| unwritable(&self.target, &cause))?;
         match look(&self.folder)? {
-            Found::Finished => remove(&self.folder).map(|()| None),
+            FolderState::Finished => remove(&self.folder).map(|()| None),
             _ => Ok(Some(format!("kept the older run in {}: other files are with it", self.folder.display()))),
         }
     }

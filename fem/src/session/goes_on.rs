@@ -5,7 +5,7 @@
 
 use super::folder::{self, RunIdentity, Workplace};
 use super::stepping::{self, Running};
-use super::{FeRun, Loaded, Settings, sha256};
+use super::{FeRun, Loaded, RunSettings, sha256};
 use crate::bytes::{pack, unpack};
 use crate::output::checkpoint::{Checkpoint, read_end, write_checkpoint, write_end};
 use crate::problem::{Loads, pressure_of};
@@ -18,7 +18,7 @@ const JUMP: f64 = 1e-3;
 
 /// What the payload of `checkpoint.end` is.
 #[derive(Serialize, Deserialize)]
-pub(super) struct End {
+pub(super) struct EndCheckpoint {
     /// Of the problem, whatever its length.
     fingerprint: u64,
     pub loads: Loads,
@@ -32,7 +32,7 @@ pub(super) struct Earlier {
     pub sha256: String,
     structure: u64,
     step: u64,
-    pub end: End,
+    pub end: EndCheckpoint,
 }
 
 /// Keeps the end of a run in its folder.
@@ -43,7 +43,7 @@ pub(super) fn keep(folder: &Path, loaded: &Loaded, running: &Running) -> Result<
         loads.entry(pressure_of(&sealed.name)).or_insert([sealed.pressure_pa, 0.0, 0.0]);
     }
     let fingerprint = problem.fingerprint_of_any_length();
-    let payload = pack(&End { fingerprint, loads, session: running.end() });
+    let payload = pack(&EndCheckpoint { fingerprint, loads, session: running.end() });
     let structure = problem.fingerprint_of_structure();
     write_end(folder, &Checkpoint { fingerprint: structure, step: run.step(), time_s: run.time_s(), payload })
 }
@@ -69,7 +69,7 @@ impl Earlier {
             return Err(refused(nothing, "make the run again with --force"));
         };
         let Checkpoint { fingerprint: structure, step, time_s, payload } = checkpoint;
-        let end: End = unpack(&payload)
+        let end: EndCheckpoint = unpack(&payload)
             .ok_or_else(|| refused("its checkpoint.end holds something else", "make the run again with --force"))?;
         Ok(Earlier { folder: folder.into(), time_s, sha256: sha256(&bytes), structure, step, end })
     }
@@ -128,7 +128,7 @@ impl Earlier {
 ///
 /// # Errors
 /// [`FemError::Setting`] for an end before the run's, or where the run resumed an earlier one and depends on it.
-pub(super) fn reopened(folder: &Path, loaded: &Loaded, settings: &Settings) -> Result<Option<Workplace>> {
+pub(super) fn reopened(folder: &Path, loaded: &Loaded, settings: &RunSettings) -> Result<Option<Workplace>> {
     let Some(end_s) = settings.end_s else { return Ok(None) };
     let ended = FeRun::read(folder)?.summary;
     if (end_s - ended.time_s).abs() <= ended.dt_s {
@@ -152,7 +152,7 @@ pub(super) fn reopened(folder: &Path, loaded: &Loaded, settings: &Settings) -> R
         frames: folder.join("run.pvd").exists(),
         from: settings.from.as_deref().map(Earlier::read).transpose()?.map(|from| from.sha256),
     };
-    let Earlier { time_s, step, end: End { session, .. }, .. } = earlier;
+    let Earlier { time_s, step, end: EndCheckpoint { session, .. }, .. } = earlier;
     let payload = stepping::extended(&session, time_s, problem.settings.output_every_s).unwrap_or(session);
     let checkpoint = Checkpoint { fingerprint: problem.fingerprint(), step, time_s, payload };
     folder::reopen(folder, marker, &|| write_checkpoint(folder, &checkpoint).map(|_| ())).map(Some)

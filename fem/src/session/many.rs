@@ -2,14 +2,14 @@
 //! asking twice costs nothing. A finished one is kept, an interrupted one goes on.
 
 use super::together::{shared, together};
-use super::{FeRun, Loaded, Progress, Settings, Source, folder, simulate};
+use super::{FeRun, Loaded, Progress, RunSettings, Source, folder, simulate};
 use crate::{FemError, Result};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 
 /// One run for [`simulate_all`]: its source, name and folder.
 #[derive(Debug, Clone)]
-pub struct Job {
+pub struct RunJob {
     /// Case or scenario that is simulated.
     pub source: Source,
     /// What to call it while it runs.
@@ -28,11 +28,11 @@ pub struct Many {
     pub of: Vec<usize>,
 }
 
-/// Runs the jobs that are not complete yet, below [`Settings::folder`], the longest first.
+/// Runs the jobs that are not complete yet, below [`RunSettings::folder`], the longest first.
 ///
 /// # Errors
 /// [`FemError::Refused`] and [`FemError::Folder`] before the first run costs time; [`FemError::Interrupted`].
-pub fn simulate_all(jobs: &[Job], settings: &Settings, progress: Progress) -> Result<Many> {
+pub fn simulate_all(jobs: &[RunJob], settings: &RunSettings, progress: Progress) -> Result<Many> {
     let root = settings.folder.clone().unwrap_or_default();
     if jobs.iter().any(|job| job.folder.is_some()) && root.join("case.toml").exists() {
         let help = "choose another folder with --out; several runs get a folder each inside it";
@@ -46,7 +46,7 @@ pub fn simulate_all(jobs: &[Job], settings: &Settings, progress: Progress) -> Re
     order.sort_by(|a, b| tasks[*b].effort.total_cmp(&tasks[*a].effort));
     let one = |k: usize, threads: usize, tell: Progress| {
         let task = &tasks[order[k]];
-        let (job, each) = (&jobs[task.at], Settings { threads, ..settings.clone() });
+        let (job, each) = (&jobs[task.at], RunSettings { threads, ..settings.clone() });
         let what = format!("{} of {}, {}", task.at + 1, jobs.len(), job.what);
         let run = task.run(job, &each, &mut |text, share| tell(&format!("{what}: {text}"), share));
         match run {
@@ -74,11 +74,11 @@ pub fn simulate_each<T: Send>(
     together(count, workers, progress, &|k, tell: Progress| one(k, threads, tell))
 }
 
-/// One run: in memory, or below [`Settings::folder`] in its own folder, where a finished one of the same problem is taken.
+/// One run: in memory, or below [`RunSettings::folder`] in its own folder, where a finished one of the same problem is taken.
 ///
 /// # Errors
 /// As [`simulate`].
-pub fn simulate_job(job: &Job, settings: &Settings, progress: Progress) -> Result<FeRun> {
+pub fn simulate_job(job: &RunJob, settings: &RunSettings, progress: Progress) -> Result<FeRun> {
     let Some(root) = &settings.folder else { return simulate(&job.source, settings, progress) };
     let task = Task::of(0, job, &job.source.load()?, root);
     task.run(job, settings, &mut |text, share| progress(&format!("{}: {text}", job.what), share))
@@ -122,12 +122,12 @@ impl Shard {
 ///
 /// # Errors
 /// [`FemError::Refused`] for a job that cannot be run.
-pub fn problems<'a>(jobs: &'a [Job], root: &Path) -> Result<Vec<(&'a Job, PathBuf)>> {
+pub fn problems<'a>(jobs: &'a [RunJob], root: &Path) -> Result<Vec<(&'a RunJob, PathBuf)>> {
     Ok(tasks(jobs, root)?.0.into_iter().map(|task| (&jobs[task.at], task.folder)).collect())
 }
 
 /// Each problem once, and which of them each job has.
-fn tasks(jobs: &[Job], root: &Path) -> Result<(Vec<Task>, Vec<usize>)> {
+fn tasks(jobs: &[RunJob], root: &Path) -> Result<(Vec<Task>, Vec<usize>)> {
     let (mut tasks, mut of) = (Vec::<Task>::new(), Vec::new());
     for (at, job) in jobs.iter().enumerate() {
         let task = Task::of(at, job, &job.source.load()?, root);
@@ -152,7 +152,7 @@ struct Task {
 }
 
 impl Task {
-    fn of(at: usize, job: &Job, loaded: &Loaded, root: &Path) -> Task {
+    fn of(at: usize, job: &RunJob, loaded: &Loaded, root: &Path) -> Task {
         let problem = &loaded.case.problem;
         let contact = if problem.contact.is_some() { CONTACT } else { 1.0 };
         // Smaller elements need more steps as well.
@@ -165,7 +165,7 @@ impl Task {
     }
 
     /// Refuses a folder with a run of another case.
-    fn check(&self, jobs: &[Job]) -> Result<()> {
+    fn check(&self, jobs: &[RunJob]) -> Result<()> {
         if folder::is_of(&self.folder, &jobs[self.at].source.text)? != Some(false) {
             return Ok(());
         }
@@ -174,7 +174,7 @@ impl Task {
         Err(FemError::folder(&self.folder, cause, help))
     }
 
-    fn run(&self, job: &Job, settings: &Settings, tell: Progress) -> Result<FeRun> {
+    fn run(&self, job: &RunJob, settings: &RunSettings, tell: Progress) -> Result<FeRun> {
         if job.folder.is_none()
             && let Some(run) = finished(&self.folder)?
         {
@@ -182,7 +182,7 @@ impl Task {
         }
         let other = folder::is_of(&self.folder, &job.source.text)? == Some(false);
         let folder = Some(self.folder.clone());
-        let settings = Settings { folder, resume: !other, force: other, keep_end: false, ..settings.clone() };
+        let settings = RunSettings { folder, resume: !other, force: other, keep_end: false, ..settings.clone() };
         simulate(&job.source, &settings, tell)
     }
 }
@@ -190,12 +190,12 @@ impl Task {
 /// The complete run in a folder, if it is one of the present engine.
 fn finished(folder: &Path) -> Result<Option<FeRun>> {
     #[derive(Deserialize)]
-    struct Made {
+    struct EngineVersion {
         engine: u32,
     }
     let text = std::fs::read(folder.join("summary.json")).unwrap_or_default();
     // Runs of other engines may be records of another shape, which is not an error.
-    let of_another = serde_json::from_slice(&text).is_ok_and(|Made { engine }| engine != crate::ENGINE);
+    let of_another = serde_json::from_slice(&text).is_ok_and(|EngineVersion { engine }| engine != crate::ENGINE);
     if of_another || !folder::is_finished(folder) {
         return Ok(None);
     }

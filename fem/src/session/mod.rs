@@ -17,7 +17,7 @@
 //! ```
 //!
 //! A run in a folder is marked as unfinished until its last file is written; killed at any moment it can go on with
-//! [`Settings::resume`], and ends with the same bits.
+//! [`RunSettings::resume`], and ends with the same bits.
 
 mod common;
 mod export;
@@ -40,10 +40,10 @@ pub use common::{Progress, rounded};
 pub use export::{Export, Solver, export};
 pub use folder::is_finished;
 pub use manifest::{FileHash, MANIFEST, Maker, Manifest, sha256};
-pub use many::{Job, Many, Shard, finished_below, problems, simulate_all, simulate_each, simulate_job};
+pub use many::{Many, RunJob, Shard, finished_below, problems, simulate_all, simulate_each, simulate_job};
 pub use memory::least_bytes;
 pub use plan::{AS_IT_IS, Changes, Cube, Felt, Variation, cube, felt, mesh_keys, numerics, pressures_in_toml, product};
-pub use run::{FeRun, Further, Settings};
+pub use run::{FeRun, Further, RunSettings};
 pub use source::{Loaded, Source};
 pub use summary::{
     ChamberEnd, Cost, EnergyLine, KineticShares, MeshQuality, ProbeEnd, ReactionEnd, Rule, SUMMARY, Summary,
@@ -65,7 +65,7 @@ use stepping::Running;
 /// [`FemError::Refused`] for a text that describes no sound problem, before a folder is touched; [`FemError::Folder`] for a
 /// folder that holds something else; [`FemError::StoppedIn`] by a guard; [`FemError::Interrupted`] if `progress` asked to
 /// end: a checkpoint is written then.
-pub fn simulate(source: &Source, settings: &Settings, progress: Progress) -> Result<FeRun> {
+pub fn simulate(source: &Source, settings: &RunSettings, progress: Progress) -> Result<FeRun> {
     let started = Instant::now();
     let earlier = settings.from.as_deref().map(Earlier::read).transpose()?;
     let mut loaded = source.load_after(earlier.as_ref().map(|earlier| (earlier.time_s, &earlier.end.loads)))?;
@@ -99,7 +99,12 @@ pub fn simulate(source: &Source, settings: &Settings, progress: Progress) -> Res
 }
 
 /// Marks the folder as this run's. In memory, energies are recorded at the start and at the end only.
-fn begin(loaded: &mut Loaded, place: Option<&Workplace>, settings: &Settings, earlier: Option<&Earlier>) -> Result<()> {
+fn begin(
+    loaded: &mut Loaded,
+    place: Option<&Workplace>,
+    settings: &RunSettings,
+    earlier: Option<&Earlier>,
+) -> Result<()> {
     let Some(place) = place else {
         loaded.case.problem.settings.output_every_s = loaded.case.problem.settings.end_s;
         return Ok(());
@@ -114,7 +119,12 @@ fn begin(loaded: &mut Loaded, place: Option<&Workplace>, settings: &Settings, ea
 }
 
 /// The run that was asked for, or the interrupted one if the settings agree with it.
-fn same_run(place: &Workplace, loaded: &Loaded, settings: &Settings, earlier: Option<&Earlier>) -> Result<RunIdentity> {
+fn same_run(
+    place: &Workplace,
+    loaded: &Loaded,
+    settings: &RunSettings,
+    earlier: Option<&Earlier>,
+) -> Result<RunIdentity> {
     let asked = RunIdentity {
         case_sha256: sha256(loaded.source.text.as_bytes()),
         end_s: loaded.case.problem.settings.end_s,
@@ -149,7 +159,7 @@ fn finish(
     loaded: &Loaded,
     running: Running,
     place: Option<Workplace>,
-    settings: &Settings,
+    settings: &RunSettings,
     started: Instant,
     progress: Progress,
 ) -> Result<FeRun> {

@@ -1,7 +1,7 @@
 //! Runs of one robot that differ in mesh, seed, pressure, or in unmeasured numbers.
 
 use super::{Source, rounded};
-use crate::case::range::{Key, named};
+use crate::case::range::{DeclaredKey, named};
 use crate::robot::{ASSUMED, Assumed, KEYS, NUMERICAL, RobotRun, RobotSettings, hypercube};
 use crate::{FemError, Result};
 use models::{CHANNELS, Scenario};
@@ -87,7 +87,7 @@ pub fn numerics(scenario: &Scenario, run: &RobotRun) -> Result<Vec<Variation>> {
     let mut add = |label: String, changes: Changes| all.push(Variation { label, changes, ..Variation::default() });
     let problem = run.problem(scenario)?;
     let (settings, chosen, touches) = (&run.settings, &problem.settings, problem.contact.is_some());
-    let number = |si: f64, key: &Key<RobotSettings>| format!("{:.4e}", si / key.si);
+    let number = |si: f64, key: &DeclaredKey<RobotSettings>| format!("{:.4e}", si / key.si);
     for key in KEYS.iter().filter(|key| NUMERICAL.contains(&key.name)) {
         let own = (key.get)(settings).or(match key.name {
             "mass_factor" => Some(settings.mass_factor_for(touches)),
@@ -127,7 +127,7 @@ fn extended(cases: &[Variation], ways: &[Way]) -> Vec<Variation> {
 const CUBE: u64 = 1;
 
 /// An unmeasured number that changes a robot, and the key that writes it.
-pub type Felt = (&'static Assumed, &'static Key<RobotSettings>);
+pub type Felt = (&'static Assumed, &'static DeclaredKey<RobotSettings>);
 
 /// Robots that fill the intervals of assumed numbers as a Latin hypercube.
 #[derive(Debug, Clone)]

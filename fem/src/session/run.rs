@@ -16,7 +16,7 @@ pub type Further = fn(&Loaded, &FeRun) -> Result<Vec<(String, Vec<u8>)>, String>
 
 /// Folder, threads, checkpoints and resumption of one run.
 #[derive(Debug, Clone)]
-pub struct Settings {
+pub struct RunSettings {
     /// Folder of the run. `None`: nothing is written, files of the end are in [`FeRun::files`], and energies are judged at the
     /// start, at the holds and at the end.
     pub folder: Option<PathBuf>,
@@ -44,9 +44,9 @@ pub struct Settings {
     pub maker: Maker,
 }
 
-impl Default for Settings {
-    fn default() -> Settings {
-        Settings {
+impl Default for RunSettings {
+    fn default() -> RunSettings {
+        RunSettings {
             folder: None,
             resume: false,
             from: None,
@@ -89,7 +89,7 @@ impl FeRun {
     /// [`FemError::Folder`] if it cannot be read, [`FemError::Record`] with the place if it is damaged.
     pub fn read(folder: &Path) -> Result<FeRun> {
         #[derive(Deserialize)]
-        struct Made {
+        struct FinishedRun {
             cost: Cost,
             outputs: Vec<FileHash>,
         }
@@ -103,7 +103,7 @@ impl FeRun {
         let (file, summary_text) = text("summary.json")?;
         let summary = SUMMARY.read(&file, &summary_text, &help)?;
         let (listed, manifest) = text("manifest.json")?;
-        let Made { cost, outputs } = MANIFEST.read(&listed, &manifest, &help)?;
+        let FinishedRun { cost, outputs } = MANIFEST.read(&listed, &manifest, &help)?;
         let own = FileHash::of("summary.json", summary_text.as_bytes());
         if outputs.iter().any(|output| output.name == own.name && output.sha256 != own.sha256) {
             return Err(Damage::changed(&file, &help));

@@ -2,7 +2,7 @@
 
 use super::watch::WatchedRobot;
 use crate::case::{Case, Outputs, is_case};
-use crate::error::Refusal;
+use crate::error::TextFault;
 use crate::problem::Loads;
 use crate::robot::{RobotRun, RobotStart, outputs, with_fem};
 use crate::{FemError, Result};
@@ -151,6 +151,6 @@ impl Source {
         let mut lines = told.lines();
         let message = lines.next().unwrap_or_default().to_string();
         let help = lines.collect::<Vec<_>>().join(" ");
-        FemError::Refused(Box::new(Refusal { file: self.name.clone(), text: self.text.clone(), message, help, span }))
+        FemError::Refused(Box::new(TextFault { file: self.name.clone(), text: self.text.clone(), message, help, span }))
     }
 }

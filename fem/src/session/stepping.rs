@@ -5,12 +5,12 @@ use super::watch::{Watched, WatchedState};
 use crate::bytes::{pack, unpack};
 use crate::case::Case;
 use crate::cost::thread_seconds;
-use crate::output::Frame;
+use crate::output::MeshFrame;
 use crate::output::centre_line::{CentreLine, CentreLineFile};
 use crate::output::checkpoint::{Checkpoint, read_checkpoint, write_checkpoint};
-use crate::output::history::{History, Record};
+use crate::output::history::{HistoryRecord, HistoryTable};
 use crate::output::pvd::Series;
-use crate::output::table::Table;
+use crate::output::table::StepTable;
 use crate::robot::Rest;
 use crate::run::Advance;
 use crate::{FemError, Result, Simulation};
@@ -24,7 +24,7 @@ const TELL_EVERY: Duration = Duration::from_millis(50);
 
 /// Energies at one output, for the judgement at the end.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(super) struct Balance {
+pub(super) struct EnergyBalance {
     pub time_s: f64,
     /// Kinetic energy over kinetic and stored energy.
     pub kinetic_share: f64,
@@ -37,7 +37,7 @@ pub(super) struct Balance {
 pub(super) struct Done {
     next: u64,
     pub cpu_s: f64,
-    pub balances: Vec<Balance>,
+    pub balances: Vec<EnergyBalance>,
 }
 
 pub(super) struct Running<'a> {
@@ -50,12 +50,12 @@ pub(super) struct Running<'a> {
     /// Readings of a robot.
     pub robot: Option<Watched>,
     case: &'a Case,
-    files: Option<Files>,
+    files: Option<RunFiles>,
 }
 
-struct Files {
+struct RunFiles {
     folder: PathBuf,
-    history: History,
+    history: HistoryTable,
     series: Option<Series>,
     centre_line: Option<CentreLineFile>,
     fingerprint: u64,
@@ -69,7 +69,7 @@ impl<'a> Running<'a> {
         folder: Option<&Path>,
         robot: Option<Watched>,
     ) -> Result<Running<'a>> {
-        let files = folder.map(|folder| Files::open(case, folder, &[])).transpose()?;
+        let files = folder.map(|folder| RunFiles::open(case, folder, &[])).transpose()?;
         let began = (run.step(), thread_seconds());
         let next = number_at(run.time_s(), case.problem.settings.output_every_s);
         let done = Done { next, ..Done::default() };
@@ -99,7 +99,7 @@ impl<'a> Running<'a> {
         // Outputs of the same step are one row and one frame.
         let mut times_s: Vec<f64> = saved.done.balances.iter().map(|b| b.time_s).collect();
         times_s.dedup();
-        let files = Some(Files::open(case, folder, &times_s)?);
+        let files = Some(RunFiles::open(case, folder, &times_s)?);
         let (began, notices) = ((run.step(), thread_seconds()), notice.into_iter().collect());
         Ok(Running { run, done: saved.done, notices, began, robot, case, files })
     }
@@ -116,7 +116,7 @@ impl<'a> Running<'a> {
         while self.done.next <= last {
             let output_s = if self.done.next == last { end_s } else { self.done.next as f64 * every_s };
             let hold_s = self.robot.as_ref().and_then(Watched::next_s).filter(|hold_s| *hold_s <= output_s);
-            self.advance(Goal::Time(hold_s.unwrap_or(output_s)), &mut pace)?;
+            self.advance(StopTime::Time(hold_s.unwrap_or(output_s)), &mut pace)?;
             match hold_s {
                 Some(hold_s) => self.rest(hold_s, &mut pace)?,
                 None => self.output()?,
@@ -129,7 +129,7 @@ impl<'a> Running<'a> {
     fn rest(&mut self, hold_s: f64, pace: &mut Pace) -> Result<()> {
         while let Some(robot) = &mut self.robot {
             match robot.rest(&self.run) {
-                Rest::Until(waited_s) => self.advance(Goal::Waited(waited_s, hold_s), pace)?,
+                Rest::Until(waited_s) => self.advance(StopTime::Waited(waited_s, hold_s), pace)?,
                 rest => return robot.read(&self.run, rest),
             }
         }
@@ -137,7 +137,7 @@ impl<'a> Running<'a> {
     }
 
     /// Steps to a moment, with checkpoints on the way; [`FemError::Interrupted`] once `progress` asks to end.
-    fn advance(&mut self, goal: Goal, pace: &mut Pace) -> Result<()> {
+    fn advance(&mut self, goal: StopTime, pace: &mut Pace) -> Result<()> {
         let (done, files, robot) = (&self.done, &self.files, &mut self.robot);
         let outside_s = done.cpu_s + thread_seconds() - self.began.1;
         let mut fault = None;
@@ -151,12 +151,12 @@ impl<'a> Running<'a> {
             fault.is_none() && flow.is_continue()
         };
         let advanced = match goal {
-            Goal::Time(time_s) => self.run.advance_until(time_s, &mut each)?,
-            Goal::Waited(waited_s, at_s) => self.run.wait_until(waited_s, at_s, &mut each)?,
+            StopTime::Time(time_s) => self.run.advance_until(time_s, &mut each)?,
+            StopTime::Waited(waited_s, at_s) => self.run.wait_until(waited_s, at_s, &mut each)?,
         };
         fault.map_or(Ok(()), Err)?;
         if advanced == Advance::Interrupted {
-            let saved = |files: &Files| files.save(&self.run, self.saved(self.done.cpu_s + self.cpu_s()));
+            let saved = |files: &RunFiles| files.save(&self.run, self.saved(self.done.cpu_s + self.cpu_s()));
             self.files.iter().try_for_each(saved)?;
             return Err(FemError::Interrupted { time_s: self.run.time_s(), step: self.run.step(), done: 0, of: 1 });
         }
@@ -168,8 +168,8 @@ impl<'a> Running<'a> {
     }
 
     fn output(&mut self) -> Result<()> {
-        let record = Record::of(&self.run);
-        self.done.balances.push(Balance {
+        let record = HistoryRecord::of(&self.run);
+        self.done.balances.push(EnergyBalance {
             time_s: record.time_s,
             kinetic_share: record.ledger.kinetic_share(),
             residual_share: record.ledger.residual_share(),
@@ -182,7 +182,7 @@ impl<'a> Running<'a> {
         }
         if let Some(series) = &mut files.series {
             let hold_pa = self.robot.as_ref().and_then(|robot| robot.hold_pa(record.time_s));
-            series.push(&self.case.problem.mesh, &Frame { hold_pa, ..Frame::of(&self.run) })?;
+            series.push(&self.case.problem.mesh, &MeshFrame { hold_pa, ..MeshFrame::of(&self.run) })?;
         }
         Ok(())
     }
@@ -198,18 +198,18 @@ impl<'a> Running<'a> {
     }
 }
 
-impl Files {
+impl RunFiles {
     /// Files of a run after its outputs at `times_s`; lost rows are refused before anything is cut.
-    fn open(case: &Case, folder: &Path, times_s: &[f64]) -> Result<Files> {
+    fn open(case: &Case, folder: &Path, times_s: &[f64]) -> Result<RunFiles> {
         let history = folder.join("history.csv");
         let path = folder.join("centre_line.csv");
         let line = centre_line(case)?;
-        Table::check(&history, times_s, 1)?;
-        line.iter().try_for_each(|line| Table::check(&path, times_s, line.stations_m().len()))?;
-        Ok(Files {
+        StepTable::check(&history, times_s, 1)?;
+        line.iter().try_for_each(|line| StepTable::check(&path, times_s, line.stations_m().len()))?;
+        Ok(RunFiles {
             folder: folder.into(),
             series: case.outputs.frames.then(|| Series::open(folder, times_s)).transpose()?,
-            history: History::open(&history, &case.problem.mesh, &case.outputs.probes, times_s)?,
+            history: HistoryTable::open(&history, &case.problem.mesh, &case.outputs.probes, times_s)?,
             centre_line: line.map(|line| CentreLineFile::open(&path, line, times_s)).transpose()?,
             fingerprint: case.problem.fingerprint(),
         })
@@ -264,7 +264,7 @@ fn centre_line(case: &Case) -> Result<Option<CentreLine>> {
 
 /// Where a run steps to \[s\].
 #[derive(Clone, Copy)]
-enum Goal {
+enum StopTime {
     Time(f64),
     /// A time waited in all, with the loads of a moment.
     Waited(f64, f64),

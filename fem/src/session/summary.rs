@@ -1,6 +1,6 @@
 //! What a run came to: the record `summary.json`.
 
-use super::stepping::{Balance, Running};
+use super::stepping::{EnergyBalance, Running};
 use super::watch::{RobotSummary, WatchedRobot};
 use crate::case::Case;
 use crate::policy;
@@ -273,8 +273,8 @@ fn quality(case: &Case) -> Option<MeshQuality> {
     })
 }
 
-fn kinetic(balances: &[Balance]) -> KineticShares {
-    let later: Vec<&Balance> = balances.iter().filter(|b| b.time_s > 0.0).collect();
+fn kinetic(balances: &[EnergyBalance]) -> KineticShares {
+    let later: Vec<&EnergyBalance> = balances.iter().filter(|b| b.time_s > 0.0).collect();
     let mut shares: Vec<f64> = later.iter().map(|b| b.kinetic_share).collect();
     shares.sort_by(f64::total_cmp);
     let peak = later.iter().max_by(|a, b| a.kinetic_share.total_cmp(&b.kinetic_share));

@@ -8,14 +8,14 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Where the jobs are, and who wants to know.
-struct Standing<'a> {
+struct JobProgress<'a> {
     progress: Progress<'a>,
     /// Of the jobs that run: text and share.
     running: BTreeMap<usize, (String, Option<f64>)>,
     complete: usize,
 }
 
-impl Standing<'_> {
+impl JobProgress<'_> {
     fn report(&mut self, index: usize, text: &str, share: Option<f64>, count: usize) -> ControlFlow<()> {
         self.running.insert(index, (text.to_owned(), share));
         let shares: f64 = self.running.values().filter_map(|job| job.1).sum();
@@ -41,7 +41,7 @@ pub(super) fn together<T: Send>(
     job: &(impl Fn(usize, Progress) -> Result<T> + Sync),
 ) -> Result<Vec<T>> {
     let (next, stop) = (AtomicUsize::new(0), AtomicBool::new(false));
-    let standing = Mutex::new(Standing { progress, running: BTreeMap::new(), complete: 0 });
+    let standing = Mutex::new(JobProgress { progress, running: BTreeMap::new(), complete: 0 });
     let found = Mutex::new(BTreeMap::new());
     let work = || {
         loop {

@@ -1,7 +1,7 @@
 //! Readings of a robot while it runs.
 
 use super::rounded;
-use crate::case::Key;
+use crate::case::DeclaredKey;
 use crate::problem::Patience;
 use crate::robot::{
     HoldEnd, KEYS, Reading, Rest, RobotGauge, RobotRun, RobotSettings, Sample, Settling, Snap, Watch, snaps,
@@ -124,7 +124,7 @@ impl Watched {
     }
 
     pub(super) fn summary(&self, WatchedRobot { scenario, run, .. }: &WatchedRobot) -> RobotSummary {
-        let setting = |key: &Key<RobotSettings>| {
+        let setting = |key: &DeclaredKey<RobotSettings>| {
             (key.name.to_string(), (key.get)(&run.settings).map(|value| rounded(value / key.si)))
         };
         RobotSummary {

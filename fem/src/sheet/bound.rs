@@ -5,7 +5,7 @@
 //! Σ B Bᵀ. Bending adds the row sums of K (Gershgorin).
 
 use models::Fabric;
-use models::fabrics::{Kind, Past, WrinklingFilm};
+use models::fabrics::{InlinedFabric, Past, WrinklingFilm};
 
 use super::chamber::Air;
 use super::reference::mean_stiffness;
@@ -60,7 +60,7 @@ const AHEAD: f64 = 0.01;
 fn ahead<'a>(item: &Element, here: At<'a>) -> (At<'a>, f64) {
     let bounded = |at: At<'a>| (at, at.all(item));
     let stiffer = |a: (At<'a>, f64), b: (At<'a>, f64)| if b.1 > a.1 { b } else { a };
-    if let Kind::WrinklingFilm(wrinkling) = here.fabric.kind() {
+    if let InlinedFabric::WrinklingFilm(wrinkling) = here.fabric.kind() {
         let e = WrinklingFilm::unfolded(here.e);
         let d = wrinkling.film.tangent(e, &here.past);
         let taut = At { fabric: &wrinkling.film, e, c: [1.0 + 2.0 * e[0], 1.0 + 2.0 * e[1], e[2]], d, ..here };
@@ -88,7 +88,7 @@ impl Sheet {
 
     /// True if some fabric may stiffen faster than linear and neo-Hookean ones do, or some gas.
     pub(crate) fn stiffens(&self) -> bool {
-        self.fabrics.iter().any(|f| matches!(f.kind(), Kind::Other)) || self.air.iter().any(Air::follows)
+        self.fabrics.iter().any(|f| matches!(f.kind(), InlinedFabric::Other)) || self.air.iter().any(Air::follows)
     }
 
     /// Adds the bound of the gas in chambers that are sealed, or will be before `until_s` \[N/m\].

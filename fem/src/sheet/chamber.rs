@@ -18,14 +18,14 @@ pub struct Air {
     /// Area of the wall at rest \[m²\].
     area_m2: f64,
     /// Where the chamber ends at planes of all three axes.
-    cut: Option<Cut>,
+    cut: Option<PlaneRim>,
     /// Pressure, gas and other state that changes with time.
     pub now: AirNow,
 }
 
 /// One plane perpendicular to an axis, and the edges of the wall at all planes, run along with the outside in front.
 #[derive(Debug, Clone)]
-struct Cut {
+struct PlaneRim {
     axis: usize,
     at_m: f64,
     rim: Vec<[u32; 2]>,
@@ -67,7 +67,7 @@ impl Air {
         let rim = rim(mesh, &self.chamber.name);
         let planes = planes(mesh, &rim, |node, axis| fixed[node as usize][axis]);
         let single = (0..3).find(|k| planes[*k].len() == 1);
-        self.cut = single.map(|axis| Cut { axis, at_m: planes[axis][0], rim });
+        self.cut = single.map(|axis| PlaneRim { axis, at_m: planes[axis][0], rim });
     }
 
     /// Name of the chamber, as in the problem.
@@ -135,7 +135,7 @@ impl Air {
     /// Volume from the fluxes ∫ x n_x, ∫ y n_y, ∫ z n_z of the wall: their mean over the axes along which it is not open. Where it is
     /// along all, ∫ (x − c) n_x from the one plane at c, with ∫ n dA = ½ ∮ x × dx.
     pub(crate) fn volume_of(&self, flux: V3, q: &Nodes) -> f64 {
-        if let Some(Cut { axis, at_m, rim }) = &self.cut {
+        if let Some(PlaneRim { axis, at_m, rim }) = &self.cut {
             let area = |[a, b]: &[u32; 2]| 0.5 * cross(node(q, *a as usize), node(q, *b as usize))[*axis];
             return flux[*axis] - at_m * rim.iter().map(area).sum::<f64>();
         }

@@ -1,6 +1,6 @@
 //! Stress, strain, thickness and wrinkling of every element, for pictures and reports.
 
-use models::fabrics::{Kind, WrinklingFilm};
+use models::fabrics::{InlinedFabric, WrinklingFilm};
 
 use super::reference::strain;
 use super::{Element, Sheet};
@@ -40,8 +40,8 @@ impl Sheet {
     pub(crate) fn compressed_j(&self, q: &[f64]) -> f64 {
         let of = |element: &Element| {
             let film = match self.fabrics[element.part].kind() {
-                Kind::WrinklingFilm(film) => *film,
-                Kind::NeoHookean(film) => WrinklingFilm { film: *film, load_n_per_m: f64::INFINITY },
+                InlinedFabric::WrinklingFilm(film) => *film,
+                InlinedFabric::NeoHookean(film) => WrinklingFilm { film: *film, load_n_per_m: f64::INFINITY },
                 _ => return 0.0,
             };
             let f = element.deformation(q.as_chunks().0);

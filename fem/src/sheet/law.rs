@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use models::Fabric;
-use models::fabrics::{Kind, Mixed, NeoHookean, Orthotropic, Past};
+use models::fabrics::{InlinedFabric, Mixed, NeoHookean, Orthotropic, Past};
 use pulp::Simd;
 
 use super::group::{LANES, Stock};
@@ -29,14 +29,14 @@ pub(super) trait ShellLaw: Copy {
 pub(super) fn loops(fabrics: &[Arc<dyn Fabric>]) -> Vec<usize> {
     let kind = |wrinkles: bool| {
         fabrics.iter().position(|f| match f.kind() {
-            Kind::WrinklingFilm(_) => wrinkles,
-            Kind::NeoHookean(_) => !wrinkles,
+            InlinedFabric::WrinklingFilm(_) => wrinkles,
+            InlinedFabric::NeoHookean(_) => !wrinkles,
             _ => false,
         })
     };
     let film = kind(true).or(kind(false));
     let of = |p: usize| match fabrics[p].kind() {
-        Kind::NeoHookean(_) | Kind::WrinklingFilm(_) => film.unwrap_or(p),
+        InlinedFabric::NeoHookean(_) | InlinedFabric::WrinklingFilm(_) => film.unwrap_or(p),
         _ => fabrics.iter().position(|f| Arc::ptr_eq(f, &fabrics[p])).unwrap_or(p),
     };
     (0..fabrics.len()).map(of).collect()
@@ -46,8 +46,8 @@ pub(super) fn loops(fabrics: &[Arc<dyn Fabric>]) -> Vec<usize> {
 /// that unit at which a film wrinkles.
 pub(super) fn own(fabric: &dyn Fabric) -> [f64; 2] {
     match fabric.kind() {
-        Kind::NeoHookean(film) => [modulus(film), NEVER],
-        Kind::WrinklingFilm(film) => {
+        InlinedFabric::NeoHookean(film) => [modulus(film), NEVER],
+        InlinedFabric::WrinklingFilm(film) => {
             let per = modulus(&film.film);
             [per, (film.flat_n_per_m() / per).sqrt().min(NEVER)]
         }
@@ -83,9 +83,9 @@ impl ShellLaw for Rubber {
 
 /// Wrinkling film with 2 t C₁₀ = 1.
 #[derive(Clone, Copy)]
-pub(super) struct WrinklingFilm;
+pub(super) struct UnitFilm;
 
-impl ShellLaw for WrinklingFilm {
+impl ShellLaw for UnitFilm {
     #[inline(always)]
     fn at<S: Simd>(self, simd: S, e: [V<S>; 3], who: Who) -> ([V<S>; 3], V<S>) {
         let (full, stored) = Rubber(1.0).at(simd, e, who);

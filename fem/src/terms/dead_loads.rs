@@ -25,13 +25,13 @@ use crate::{FemError, Mesh, Result, Tick, Transient};
 #[derive(Debug, Clone)]
 pub struct DeadLoads {
     line: LedgerLine,
-    loads: Vec<Load>,
+    loads: Vec<NodalLoad>,
     time_s: f64,
     work_j: f64,
 }
 
 #[derive(Debug, Clone)]
-struct Load {
+struct NodalLoad {
     on: On,
     /// Force on each node \[N\], or acceleration \[m/s²\].
     vector: V3,
@@ -61,7 +61,7 @@ impl DeadLoads {
                 return Err(FemError::Problem(format!("force on node set {set:?} is not a finite number")));
             }
             let share = 1.0 / nodes.len() as f64;
-            Ok(Load::new(On::Nodes(nodes.to_vec()), total_n.map(|f| f * share), amplitude))
+            Ok(NodalLoad::new(On::Nodes(nodes.to_vec()), total_n.map(|f| f * share), amplitude))
         };
         Ok(DeadLoads::of("nodal forces", forces.iter().map(load).collect::<Result<_, _>>()?))
     }
@@ -74,11 +74,11 @@ impl DeadLoads {
         if gravity.g_m_s2.iter().any(|g| !g.is_finite()) {
             return Err(FemError::Problem("gravity: the acceleration is not a finite number".into()));
         }
-        let load = Load::new(On::Masses(mass_kg.to_vec()), gravity.g_m_s2, &gravity.amplitude);
+        let load = NodalLoad::new(On::Masses(mass_kg.to_vec()), gravity.g_m_s2, &gravity.amplitude);
         Ok(DeadLoads::of("gravity", vec![load]))
     }
 
-    fn of(name: &'static str, loads: Vec<Load>) -> DeadLoads {
+    fn of(name: &'static str, loads: Vec<NodalLoad>) -> DeadLoads {
         DeadLoads { line: LedgerLine::new(name, Account::Load), loads, time_s: 0.0, work_j: 0.0 }
     }
 }
@@ -116,7 +116,7 @@ impl Transient for DeadLoads {
     }
     fn restore(&mut self, saved: &[u8]) -> Option<()> {
         let (time_s, work_j, loads): (f64, f64, Vec<SavedLoad>) = unpack(saved)?;
-        let same = |(own, (_, vector, nodes)): (&Load, &SavedLoad)| own.vector == *vector && own.nodes() == *nodes;
+        let same = |(own, (_, vector, nodes)): (&NodalLoad, &SavedLoad)| own.vector == *vector && own.nodes() == *nodes;
         (loads.len() == self.loads.len() && self.loads.iter().zip(&loads).all(same)).then_some(())?;
         (self.time_s, self.work_j) = (time_s, work_j);
         for (load, (last, ..)) in self.loads.iter_mut().zip(loads) {
@@ -126,9 +126,9 @@ impl Transient for DeadLoads {
     }
 }
 
-impl Load {
-    fn new(on: On, vector: V3, amplitude: &Amplitude) -> Load {
-        Load { on, vector, amplitude: amplitude.clone(), last: None }
+impl NodalLoad {
+    fn new(on: On, vector: V3, amplitude: &Amplitude) -> NodalLoad {
+        NodalLoad { on, vector, amplitude: amplitude.clone(), last: None }
     }
     fn nodes(&self) -> &[u32] {
         if let On::Nodes(nodes) = &self.on { nodes } else { &[] }

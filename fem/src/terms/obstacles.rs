@@ -39,7 +39,7 @@ const DAMPING: f64 = 2.53;
 #[derive(Debug, Clone, Default)]
 pub struct Obstacles {
     solids: Vec<Solid>,
-    paths: Vec<Path>,
+    paths: Vec<SolidPath>,
     stiffness_n_m: Vec<f64>,
     /// Of every node, one block of nodes per obstacle.
     grips: Vec<Vec<Grip>>,
@@ -56,17 +56,17 @@ pub struct Obstacles {
 
 /// The way of a solid: where it is, and was a step before \[m\], and its force on the nodes then \[N\].
 #[derive(Debug, Clone)]
-struct Path {
+struct SolidPath {
     obstacle: Obstacle,
     now_m: V3,
     before_m: V3,
     force_n: V3,
 }
 
-impl Path {
-    fn of(obstacle: &Obstacle) -> Path {
+impl SolidPath {
+    fn of(obstacle: &Obstacle) -> SolidPath {
         let start = obstacle.moved_m(0.0);
-        Path { obstacle: obstacle.clone(), now_m: start, before_m: start, force_n: [0.0; 3] }
+        SolidPath { obstacle: obstacle.clone(), now_m: start, before_m: start, force_n: [0.0; 3] }
     }
 }
 
@@ -86,7 +86,7 @@ impl Obstacles {
         let solids = obstacles.iter().enumerate().map(|(i, o)| Solid::new(i, o)).collect::<Result<Vec<_>, _>>()?;
         Ok(Obstacles {
             grips: vec![vec![Grip::default(); nodes]; solids.len()],
-            paths: obstacles.iter().map(Path::of).collect(),
+            paths: obstacles.iter().map(SolidPath::of).collect(),
             solids,
             stiffness_n_m: stiffness_n_m.to_vec(),
             sums: vec![[0.0; 6]; nodes.div_ceil(CHUNK)],
@@ -98,7 +98,7 @@ impl Obstacles {
     }
     /// Energy stored and lost by friction and by damping, in this step, and force on all nodes.
     fn rub(&mut self, solid: usize, x: &Nodes, force: &mut Nodes) -> [f64; 6] {
-        let Path { now_m, before_m, .. } = self.paths[solid];
+        let SolidPath { now_m, before_m, .. } = self.paths[solid];
         let (body, before, stiffness) = (&self.solids[solid], &self.before_m, &self.stiffness_n_m);
         let grips = &mut self.grips[solid];
         force.par_chunks_mut(CHUNK).zip(grips.par_chunks_mut(CHUNK)).zip(&mut self.sums).enumerate().for_each(
@@ -156,7 +156,7 @@ impl Transient for Obstacles {
             energy_j += energy;
             self.lost_j[0] += friction;
             self.lost_j[1] += damping;
-            let Path { now_m, before_m, force_n, .. } = &mut self.paths[solid];
+            let SolidPath { now_m, before_m, force_n, .. } = &mut self.paths[solid];
             if !first {
                 self.work_j += 0.5 * dot(add([fx, fy, fz], *force_n), sub(*now_m, *before_m));
             }

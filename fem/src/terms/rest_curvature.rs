@@ -30,13 +30,13 @@ use crate::{Tick, Transient};
 /// Rest curvature of all nodes that have one.
 #[derive(Debug, Clone)]
 pub struct RestCurvature {
-    nodes: Vec<Rest>,
+    nodes: Vec<RestRow>,
     /// Energy at the last step \[J\]; `None` before the first.
     stored_j: Option<f64>,
 }
 
 #[derive(Debug, Clone)]
-struct Rest {
+struct RestRow {
     row: CurvatureRow,
     /// D of the parts that keep their curvature \[N m\].
     stiffness: f64,
@@ -53,7 +53,7 @@ impl RestCurvature {
         let stiffness: Vec<f64> = sections.iter().map(bending_stiffness).collect();
         let x: Vec<[f64; 4]> = mesh.points.iter().copied().map(padded).collect();
         let rows = curvature_rows(mesh, &stiffness).into_iter();
-        let nodes = rows.filter_map(|row| Rest::new(row, sections, &stiffness, &x)).collect();
+        let nodes = rows.filter_map(|row| RestRow::new(row, sections, &stiffness, &x)).collect();
         RestCurvature { nodes, stored_j: None }
     }
     /// True if nothing has a rest curvature.
@@ -62,16 +62,16 @@ impl RestCurvature {
     }
 }
 
-impl Rest {
+impl RestRow {
     /// `None` where nothing asks for it or the reference is flat.
-    fn new(row: CurvatureRow, sections: &[Section], stiffness: &[f64], x: &Nodes) -> Option<Rest> {
+    fn new(row: CurvatureRow, sections: &[Section], stiffness: &[f64], x: &Nodes) -> Option<RestRow> {
         let weight = |asked: bool| {
             let own = row.facets.iter().filter(|f| !asked || sections[f.part].rest_curvature);
             own.map(|f| stiffness[f.part] * norm(f.area_vector(|n| node(x, n as usize)))).sum::<f64>()
         };
         let share = weight(true) / weight(false);
         let stiffness = share * row.stiffness;
-        let mut rest = Rest { row, stiffness, curvature: 0.0 };
+        let mut rest = RestRow { row, stiffness, curvature: 0.0 };
         let (h, n) = (rest.curvature_vector(x), rest.normal(x));
         rest.curvature = dot(h, n) / dot(n, n);
         // A flat sheet has rounding only.

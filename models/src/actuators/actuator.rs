@@ -87,7 +87,7 @@ pub struct Demand {
 const WEAK: f64 = 1e3;
 
 /// What a growing arm makes of a demand: `m (1 − r)/d` with `d = D/D₀` and `r = ε d'/(ε' d)`, what virtual work takes.
-pub(super) struct Need {
+pub(super) struct ArmDemand {
     pub value: f64,
     pub slope: f64,
     /// d/(1 − r): weighted imbalance per `force − weight·need`.
@@ -97,11 +97,11 @@ pub(super) struct Need {
 impl Demand {
     /// From contraction and d − 1, each with its first and second derivative by the coordinate.
     #[inline(always)]
-    pub(super) fn need(&self, [e, de, dde]: [f64; 3], [grown, dd, ddd]: [f64; 3]) -> Need {
+    pub(super) fn need(&self, [e, de, dde]: [f64; 3], [grown, dd, ddd]: [f64; 3]) -> ArmDemand {
         let (m0, m1) = (self.constant, self.per_contraction);
         // A weak actuator hardly swells, and the quotients below lose all digits at rest.
         if self.growth == 0.0 || m0 + m1 > WEAK {
-            return Need { value: m0 + m1 * e, slope: m1 * de, lever: 1.0 };
+            return ArmDemand { value: m0 + m1 * e, slope: m1 * de, lever: 1.0 };
         }
         let d = 1.0 + grown;
         let per = 1.0 / (de * d);
@@ -112,7 +112,7 @@ impl Demand {
         let slope_m = m1 * (de - e * d_ratio) * per_d;
         let value = m * (1.0 - r) * per_d;
         let slope = (slope_m * (1.0 - r) - m * slope_r) * per_d - value * d_ratio;
-        Need { value, slope, lever: d / (1.0 - r) }
+        ArmDemand { value, slope, lever: d / (1.0 - r) }
     }
 }
 

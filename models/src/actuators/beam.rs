@@ -1,7 +1,7 @@
 //! A beam without actuator, from a scenario without `[actuator]`. No stretch of it is active, so none of its laws is evaluated.
 
 use super::actuator::{Actuator, Family, Stroke};
-use super::pattern::{Joint, Pattern, flat};
+use super::pattern::{ChamberBottom, Pattern, flat};
 use super::shape::ActuatorShape;
 
 /// In a scenario without `[actuator]`; not in the list of actuators.
@@ -27,5 +27,5 @@ pub const BEAM: Actuator = Actuator {
     area: |_| 0.0,
     arm: |radius_m, _| 2.0 * radius_m,
     edge_restraint: |_| 0.0,
-    pattern: |shape: &ActuatorShape| Pattern { panels: Vec::new(), ..flat(shape, Joint::Wall) },
+    pattern: |shape: &ActuatorShape| Pattern { panels: Vec::new(), ..flat(shape, ChamberBottom::Wall) },
 };

@@ -11,7 +11,7 @@
 //! (W + 4f)/W, so the folds are at the two lateral sides (inferred, not printed).
 
 use super::actuator::Actuator;
-use super::pattern::{Joint, Pattern, flat, panel};
+use super::pattern::{ChamberBottom, Pattern, flat, panel};
 use super::pouch::POUCH;
 use super::shape::ActuatorShape;
 use std::f64::consts::PI;
@@ -35,7 +35,7 @@ fn edge_restraint(shape: &ActuatorShape) -> f64 {
 /// Two lateral Z-folds: four layers (wall, gusset 1, gusset 2, top) at the seams.
 fn pattern(shape: &ActuatorShape) -> Pattern {
     let (half, fold) = (0.5 * shape.width_m, shape.fold_m);
-    let plain = flat(shape, Joint::Wall);
+    let plain = flat(shape, ChamberBottom::Wall);
     if fold == 0.0 {
         return plain;
     }

@@ -3,7 +3,7 @@
 //! Law of [`super::pouch`] with the line of action in the wall: the arm from the taut generator is 2R.
 
 use super::actuator::Actuator;
-use super::pattern::{Joint, Pattern, flat};
+use super::pattern::{ChamberBottom, Pattern, flat};
 use super::pouch::POUCH;
 
 pub(super) const ENTRY: Actuator = Actuator {
@@ -14,6 +14,6 @@ pub(super) const ENTRY: Actuator = Actuator {
     reference: "Niiyama et al. 2015 (pouch); Abrar et al. 2021 (ePAM; its model text was not available here)",
     validity: "Sealed side edges are not in the bare law, which bends too far: see sealed_sides.",
     // Published: two cylinders welded in a pattern; that they are loose at the sides of the pouches is assumed.
-    pattern: |shape| Pattern { body_sheets: 2, ..flat(shape, Joint::Wall) },
+    pattern: |shape| Pattern { body_sheets: 2, ..flat(shape, ChamberBottom::Wall) },
     ..POUCH
 };

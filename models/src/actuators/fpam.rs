@@ -21,7 +21,7 @@
 //! (McKibben); Naclerio & Hawkes 2020 (fPAM); the form over the contraction is derived here.
 
 use super::actuator::{Actuator, Demand, Family, Stroke, converged};
-use super::pattern::{Film, Joint, Pattern, flat};
+use super::pattern::{ChamberBottom, Film, Pattern, flat};
 use super::shape::ActuatorShape;
 use std::f64::consts::{FRAC_PI_4, PI};
 
@@ -47,7 +47,7 @@ pub(super) const ENTRY: Actuator = Actuator {
 /// other three only, its glued surface is silicone-coated nylon and glue alone, and silicone glue holds on silicone.
 fn pattern(shape: &ActuatorShape) -> Pattern {
     // Seen from outside the body, the underside of a helix turns the other way.
-    let mut pattern = flat(shape, Joint::Bonded { film: Film::Glue, warp_rad: -FRAC_PI_4 });
+    let mut pattern = flat(shape, ChamberBottom::Bonded { film: Film::Glue, warp_rad: -FRAC_PI_4 });
     pattern.fabric = "silicone-nylon";
     pattern.body_fabric = "silicone-nylon";
     pattern.side_welds = false;

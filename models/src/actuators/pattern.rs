@@ -31,7 +31,7 @@ pub struct Pattern {
     /// Width W of the strip along the circumference \[m\].
     pub width_m: f64,
     /// How the bottom of the chamber is joined to the body.
-    pub joint: Joint,
+    pub joint: ChamberBottom,
     /// Whether the sheet is welded along its edges at ±W/2 too, from the first seam to the last.
     pub side_welds: bool,
     /// The sheet, in the order of its cross-section.
@@ -40,7 +40,7 @@ pub struct Pattern {
 
 /// Bottom of the actuator's chamber, and how it is joined to the body's wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Joint {
+pub enum ChamberBottom {
     /// The body's wall is the bottom; the sheet is welded onto it along its edges.
     Wall,
     /// A bottom sheet of the actuator's own is stuck to the wall over its whole face: plies that bend as one.
@@ -97,24 +97,24 @@ impl Pattern {
     /// Largest number of layers over each other at a seam, the wall's own not counted.
     pub fn layers_at(&self, s_m: f64) -> usize {
         let over = |p: &&Panel| p.range_m()[0] < s_m && s_m < p.range_m()[1];
-        self.panels.iter().filter(over).count() + usize::from(matches!(self.joint, Joint::Bonded { .. }))
+        self.panels.iter().filter(over).count() + usize::from(matches!(self.joint, ChamberBottom::Bonded { .. }))
     }
 
     /// True with a bottom sheet that is taped to the wall.
     pub fn is_taped(&self) -> bool {
-        matches!(self.joint, Joint::Bonded { film: Film::Tape, .. })
+        matches!(self.joint, ChamberBottom::Bonded { film: Film::Tape, .. })
     }
 
     /// A taped pouch as a separate bag that only its seams hold: the tape is a strip across every seam.
     pub fn taped_at_seams(&self) -> Pattern {
         let half_m = 0.5 * self.width_m;
         let panels = vec![panel("bottom", 1, half_m, -half_m), panel("top", 2, -half_m, half_m)];
-        Pattern { joint: Joint::Seams, side_welds: false, panels, ..self.clone() }
+        Pattern { joint: ChamberBottom::Seams, side_welds: false, panels, ..self.clone() }
     }
 
     /// True where layers of the sheet lie over each other and can touch.
     pub fn folds(&self) -> bool {
-        self.joint == Joint::Seams || self.panels.iter().any(|p| p.level > 1)
+        self.joint == ChamberBottom::Seams || self.panels.iter().any(|p| p.level > 1)
     }
 
     /// The chamber's own pattern if the welds along its sides have a width: the pattern's edges are the middles of these welds, as its
@@ -182,7 +182,7 @@ impl Pattern {
             return Err(format!("side welds of {weld} mm fill a pouch of {width} mm; write a width below {width} mm"));
         }
         match self.joint {
-            Joint::Seams => {
+            ChamberBottom::Seams => {
                 Err("a bag joined at its seams only has no side welds on the wall; set side_welds to false".into())
             }
             _ => Ok(()),
@@ -202,7 +202,7 @@ impl Pattern {
         }
         let (first, last) = (self.panels[0], self.panels[self.panels.len() - 1]);
         let (begin, end) = match self.joint {
-            Joint::Seams => (last.to_m, last.to_m),
+            ChamberBottom::Seams => (last.to_m, last.to_m),
             _ => (-0.5 * self.width_m, 0.5 * self.width_m),
         };
         for (panel, found, end) in [(first, first.from_m, begin), (last, last.to_m, end)] {
@@ -254,7 +254,7 @@ impl Pattern {
     }
 }
 
-pub(super) fn flat(shape: &ActuatorShape, joint: Joint) -> Pattern {
+pub(super) fn flat(shape: &ActuatorShape, joint: ChamberBottom) -> Pattern {
     let half = 0.5 * shape.width_m;
     Pattern {
         fabric: "tpu-nylon",
@@ -365,7 +365,7 @@ mod tests {
     #[test]
     fn a_pouch_joined_at_its_seams_only_is_a_bag_of_its_own() {
         let (mut pattern, radius_m) = shipped("spam");
-        pattern.joint = Joint::Seams;
+        pattern.joint = ChamberBottom::Seams;
         assert!(pattern.check(radius_m, 0.0).unwrap_err().contains("no side welds"));
         pattern.side_welds = false;
         assert!(pattern.check(radius_m, 0.0).unwrap_err().contains("does not close"));

@@ -20,7 +20,7 @@
 //! Reference: Niiyama et al., Soft Robotics 2(2), 2015 (pouch motor); the volume and its derivative are derived here.
 
 use super::actuator::{Actuator, Demand, Family, Stroke, converged};
-use super::pattern::{Joint, flat};
+use super::pattern::{ChamberBottom, flat};
 use super::shape::ActuatorShape;
 use crate::root::halved;
 use crate::trig::sin_cos;
@@ -41,7 +41,7 @@ pub(super) const POUCH: Actuator = Actuator {
     area,
     arm,
     edge_restraint: |_| 1.0,
-    pattern: |shape| flat(shape, Joint::Wall),
+    pattern: |shape| flat(shape, ChamberBottom::Wall),
 };
 
 /// θ stays below a full circle; at π the two arcs would meet.

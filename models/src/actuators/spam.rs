@@ -5,7 +5,7 @@
 //! that a user sees what it costs.
 
 use super::actuator::Actuator;
-use super::pattern::{Film, Joint, flat};
+use super::pattern::{ChamberBottom, Film, flat};
 use super::pouch::POUCH;
 
 pub(super) const ENTRY: Actuator = Actuator {
@@ -16,6 +16,6 @@ pub(super) const ENTRY: Actuator = Actuator {
     reference: "Niiyama et al. 2015 (pouch motor); arm of an external pouch derived here",
     validity: "Sealed side edges and stiff tape are not in the bare law, which bends too far: see sealed_sides.",
     // Published: two layers welded at their sides and taped onto the body; the whole face is assumed to be taped.
-    pattern: |shape| flat(shape, Joint::Bonded { film: Film::Tape, warp_rad: 0.0 }),
+    pattern: |shape| flat(shape, ChamberBottom::Bonded { film: Film::Tape, warp_rad: 0.0 }),
     ..POUCH
 };

@@ -23,7 +23,7 @@ pub(super) const ENTRY: Effect = Effect {
         }
         for site in assembly.active_sites(Family::Pouch) {
             let width_m = values[0] * site.strip_m;
-            let Some(drawn) = Section::drawn_in(site.radius_m, width_m, width_m) else { continue };
+            let Some(drawn) = CutSection::drawn_in(site.radius_m, width_m, width_m) else { continue };
             site.linkage.arm_m += drawn.chord_m - 2.0 * site.radius_m;
             (site.area_m2, site.first_m3) = drawn.about_axis(site.radius_m);
             site.body_pressure.scale(drawn.moment_share(site.radius_m));

@@ -3,7 +3,7 @@
 pub(super) use crate::Text;
 pub(super) use crate::actuators::Family;
 pub(super) use crate::assembly::Assembly;
-pub(super) use crate::section::Section;
+pub(super) use crate::section::CutSection;
 pub(super) use crate::site::{SideEffects, Site};
 pub(super) use crate::term::{Account, LedgerLine, Memory, Pose, Remembering, Term, actuator_q};
 
@@ -304,15 +304,19 @@ impl Effect<'static> {
     }
 
     /// Its term without memory: a law that adds its force and returns its energy.
-    pub(super) fn law<F: Fn(&Pose, &mut [f64]) -> f64 + Send + Sync>(&self, account: Account, law: F) -> Box<Law<F>> {
-        Box::new(Law(self.line(account), law))
+    pub(super) fn law<F: Fn(&Pose, &mut [f64]) -> f64 + Send + Sync>(
+        &self,
+        account: Account,
+        law: F,
+    ) -> Box<LawTerm<F>> {
+        Box::new(LawTerm(self.line(account), law))
     }
 }
 
 /// A term that is a law alone, with its line in the ledger.
-pub(super) struct Law<F>(pub LedgerLine, pub F);
+pub(super) struct LawTerm<F>(pub LedgerLine, pub F);
 
-impl<F: Fn(&Pose, &mut [f64]) -> f64 + Send + Sync> Term for Law<F> {
+impl<F: Fn(&Pose, &mut [f64]) -> f64 + Send + Sync> Term for LawTerm<F> {
     fn line(&self) -> LedgerLine {
         self.0
     }
@@ -322,7 +326,7 @@ impl<F: Fn(&Pose, &mut [f64]) -> f64 + Send + Sync> Term for Law<F> {
     }
 }
 
-impl<F: Fn(&Pose, &mut [f64]) -> f64 + Send + Sync> Remembering for Law<F> {}
+impl<F: Fn(&Pose, &mut [f64]) -> f64 + Send + Sync> Remembering for LawTerm<F> {}
 
 impl Effect<'_> {
     /// Neutral values of all parameters, SI.

@@ -67,7 +67,7 @@ impl SealedSides {
         // A pouch too wide for the body leaves its section alone.
         let [low, middle, high] = [-step, 0.0, step].map(|more| site.drawn_in(strip_m + more));
         let sections = low.zip(middle).zip(high);
-        let factors = |of: fn(&Section) -> f64| {
+        let factors = |of: fn(&CutSection) -> f64| {
             let Some(((low, middle), high)) = &sections else { return [0.0; 2] };
             let (low, middle, high) = (of(low), of(middle), of(high));
             [

@@ -48,13 +48,13 @@ pub(super) const ENTRY: Effect = Effect {
 };
 
 /// The body's part of the section with a muscle half in its wall; `None` where the muscle is too wide for the body.
-fn drawn_in(radius_m: f64, width_m: f64) -> Option<Section> {
+fn drawn_in(radius_m: f64, width_m: f64) -> Option<CutSection> {
     let tube_m = width_m / PI;
-    let whole = Section::drawn_in(radius_m, width_m, 2.0 * tube_m)?;
+    let whole = CutSection::drawn_in(radius_m, width_m, 2.0 * tube_m)?;
     let half = 0.5 * PI * tube_m.powi(2);
     let area_m2 = whole.area_m2 - half;
     let moment = whole.area_m2 * whole.centroid_m - half * (whole.chord_m - 4.0 * tube_m / (3.0 * PI));
-    Some(Section { area_m2, centroid_m: moment / area_m2, ..whole })
+    Some(CutSection { area_m2, centroid_m: moment / area_m2, ..whole })
 }
 
 #[cfg(test)]

@@ -38,7 +38,7 @@ pub(super) const ENTRY: Effect = Effect {
         }
         for site in &mut assembly.sites {
             let r = site.radius_m;
-            let law = Law(BODY_PRESSURE, move |at: &Pose, force: &mut [f64]| {
+            let law = LawTerm(BODY_PRESSURE, move |at: &Pose, force: &mut [f64]| {
                 let kappa = at.q[0].abs();
                 let thrust = PI * r * r * at.p_body_pa;
                 let wrinkling = 0.5 * at.p_body_pa * c;

@@ -88,7 +88,7 @@ impl Linear {
         let bent: Vec<f64> = whole.states(&state).iter().map(|place| place.curvature).collect();
         let mut unloaded = scenario.clone();
         unloaded.effects.retain(|effect| !ACROSS.contains(&effect.name.as_str()));
-        let mut held = Held { model: Model::in_pieces(&unloaded, &cuts), state, loads: *loads, bent };
+        let mut held = BentRobot { model: Model::in_pieces(&unloaded, &cuts), state, loads: *loads, bent };
         held.state = held.model.prediction();
         let creep = scenario.effects.iter().find(|effect| effect.name == "creep");
         let joint = |i| held.joint(i, creep.map(|effect| effect.values[0] * effect.values[1]));
@@ -102,14 +102,14 @@ impl Linear {
     }
 }
 
-struct Held {
+struct BentRobot {
     model: Model,
     state: Prediction,
     loads: Loads,
     bent: Vec<f64>,
 }
 
-impl Held {
+impl BentRobot {
     /// Moment that is missing at a joint when it has another curvature and the robot other pressures \[N·m\].
     fn missing(&mut self, index: usize, curvature: f64, loads: &Loads) -> Solved<f64> {
         let (mut bent, mut found) = (self.bent.clone(), f64::NAN);

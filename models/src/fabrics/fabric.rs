@@ -57,14 +57,14 @@ pub trait Fabric: Send + Sync + Debug {
     }
 
     /// The laws that the element kernels compile for themselves; others are called sheet by sheet.
-    fn kind(&self) -> Kind<'_> {
-        Kind::Other
+    fn kind(&self) -> InlinedFabric<'_> {
+        InlinedFabric::Other
     }
 }
 
 /// A fabric whose formula the finite element kernels inline.
 #[derive(Debug, Clone, Copy)]
-pub enum Kind<'a> {
+pub enum InlinedFabric<'a> {
     /// Incompressible neo-Hookean sheet, which carries compression too.
     NeoHookean(&'a NeoHookean),
     /// Sheet with linear stress over Green strain and three axes of symmetry.

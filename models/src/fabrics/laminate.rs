@@ -17,7 +17,7 @@
 
 use std::sync::Arc;
 
-use super::fabric::{Fabric, Kind, Mixed, NeoHookean, Orthotropic, Past, Ply, WrinklingFilm, matrix};
+use super::fabric::{Fabric, InlinedFabric, Mixed, NeoHookean, Orthotropic, Past, Ply, WrinklingFilm, matrix};
 use super::recipe::*;
 
 /// Several fabrics bonded face to face, each at its own angle: they share one strain and add their tensions.
@@ -104,7 +104,7 @@ fn film_of(plies: &[(Arc<dyn Fabric>, Turn)]) -> Option<WrinklingFilm> {
     let mut sum = Mixed { rubber: NeoHookean::new(0.0, 0.0), linear: [[0.0; 3]; 3] };
     let (mut strain, mut load_n_per_m) = (None, 0.0);
     for (fabric, _) in plies {
-        let Kind::WrinklingFilm(ply) = fabric.kind() else { return None };
+        let InlinedFabric::WrinklingFilm(ply) = fabric.kind() else { return None };
         let own = ply.load_n_per_m / (ply.film.c10_pa * ply.film.thickness_m);
         if *strain.get_or_insert(own) != own {
             return None;
@@ -121,16 +121,16 @@ impl Mixed {
         let mut sum = Mixed { rubber: NeoHookean::new(0.0, 0.0), linear: [[0.0; 3]; 3] };
         for (fabric, turn) in plies {
             let linear = match fabric.kind() {
-                Kind::NeoHookean(rubber) => {
+                InlinedFabric::NeoHookean(rubber) => {
                     sum.add_rubber(rubber);
                     continue;
                 }
-                Kind::Orthotropic(sheet) => sheet.tangent([0.0; 3], &[0.0; 2]),
-                Kind::Mixed(mixed) => {
+                InlinedFabric::Orthotropic(sheet) => sheet.tangent([0.0; 3], &[0.0; 2]),
+                InlinedFabric::Mixed(mixed) => {
                     sum.add_rubber(&mixed.rubber);
                     mixed.linear
                 }
-                Kind::WrinklingFilm(_) | Kind::Other => return None,
+                InlinedFabric::WrinklingFilm(_) | InlinedFabric::Other => return None,
             };
             let turned = turn.tangent(&linear);
             sum.linear = matrix(|i, j| sum.linear[i][j] + turned[i][j]);
@@ -186,14 +186,14 @@ impl Fabric for Laminate {
         self.plies.iter().map(|(fabric, _)| fabric.dissipated(past)).sum()
     }
 
-    fn kind(&self) -> Kind<'_> {
+    fn kind(&self) -> InlinedFabric<'_> {
         if let Some(film) = &self.film {
-            return Kind::WrinklingFilm(film);
+            return InlinedFabric::WrinklingFilm(film);
         }
         match &self.mixed {
-            Some(mixed) if mixed.linear == [[0.0; 3]; 3] => Kind::NeoHookean(&mixed.rubber),
-            Some(mixed) => Kind::Mixed(mixed),
-            None => Kind::Other,
+            Some(mixed) if mixed.linear == [[0.0; 3]; 3] => InlinedFabric::NeoHookean(&mixed.rubber),
+            Some(mixed) => InlinedFabric::Mixed(mixed),
+            None => InlinedFabric::Other,
         }
     }
 }

@@ -29,12 +29,12 @@ mod yarn;
 
 pub use bias_extension::BiasExtension;
 pub use curve::Curve;
-pub use fabric::{Fabric, Kind, Mixed, NeoHookean, Orthotropic, Past, Ply, WrinklingFilm};
+pub use fabric::{Fabric, InlinedFabric, Mixed, NeoHookean, Orthotropic, Past, Ply, WrinklingFilm};
 pub use laminate::Laminate;
 pub use materials::{MATERIALS, Material, material};
 pub use orthotropic::shear_modulus;
 pub use pull::Pull;
-pub use recipe::{CurveInput, Law, Need, Parameter, Recipe};
+pub use recipe::{CurveInput, Law, LawParameter, Need, Recipe};
 pub use tension_field::TensionField;
 pub use woven::Woven;
 pub use wrinkling_film::wrinkling_load_n_per_m;

@@ -15,7 +15,7 @@
 
 use std::sync::Arc;
 
-use super::fabric::{Fabric, Kind, NeoHookean, Past, matrix};
+use super::fabric::{Fabric, InlinedFabric, NeoHookean, Past, matrix};
 use super::recipe::*;
 
 pub(super) const ENTRY: Law = Law {
@@ -63,8 +63,8 @@ impl Fabric for NeoHookean {
         matrix(|i, j| k * (4.0 * a[i] * a[j] * inverse - slopes[i][j]))
     }
 
-    fn kind(&self) -> Kind<'_> {
-        Kind::NeoHookean(self)
+    fn kind(&self) -> InlinedFabric<'_> {
+        InlinedFabric::NeoHookean(self)
     }
 }
 

@@ -19,7 +19,7 @@
 
 use std::sync::Arc;
 
-use super::fabric::{Fabric, Kind, Orthotropic, Past};
+use super::fabric::{Fabric, InlinedFabric, Orthotropic, Past};
 use super::recipe::*;
 
 /// A linear fabric: stiff along warp and fill, soft in between, with contraction across the pull.
@@ -50,7 +50,7 @@ pub(super) const ISOTROPIC: Law = Law {
 };
 
 /// Keys of a linear fabric: moduli, contraction ratio and thickness.
-pub(super) const MODULI: [Parameter; 6] = [
+pub(super) const MODULI: [LawParameter; 6] = [
     modulus("e0_MPa").required("modulus pulled along warp"),
     modulus("e90_MPa").required("modulus pulled along fill"),
     modulus("e45_MPa").optional("modulus pulled at 45 degrees to the yarns; in place of g_MPa"),
@@ -59,7 +59,7 @@ pub(super) const MODULI: [Parameter; 6] = [
     THICKNESS,
 ];
 
-pub(super) fn from_values(v: &Values) -> Result<Orthotropic, String> {
+pub(super) fn from_values(v: &RecipeValues) -> Result<Orthotropic, String> {
     v.exactly_one(&["e45_MPa", "g_MPa"])?;
     let (e0, e90, nu12, t) = (v.get("e0_MPa")?, v.get("e90_MPa")?, v.get("nu12")?, v.get("thickness_mm")?);
     match v.optional("e45_MPa") {
@@ -137,8 +137,8 @@ impl Fabric for Orthotropic {
         [[self.a11, self.a12, 0.0], [self.a12, self.a22, 0.0], [0.0, 0.0, self.a66]]
     }
 
-    fn kind(&self) -> Kind<'_> {
-        Kind::Orthotropic(self)
+    fn kind(&self) -> InlinedFabric<'_> {
+        InlinedFabric::Orthotropic(self)
     }
 }
 

@@ -35,7 +35,7 @@ impl Recipe {
 
 /// One number of a law. Values are in `unit` in recipes, in SI (`value × si`) inside.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Parameter {
+pub struct LawParameter {
     /// Key, with the unit as suffix.
     pub key: &'static str,
     /// Unit of the value in a recipe, which the key has as suffix.
@@ -86,7 +86,7 @@ pub struct Law {
     /// Name by which recipes and materials call the law.
     pub name: &'static str,
     /// Numbers that its recipes have, required and optional.
-    pub parameters: &'static [Parameter],
+    pub parameters: &'static [LawParameter],
     /// Tables that its recipes may have in place of numbers.
     pub curves: &'static [CurveInput],
     /// Fewest and most plies it is made of.
@@ -104,7 +104,7 @@ pub struct Law {
 
 impl Law {
     /// Checks names, presence, bounds and number of plies.
-    pub(super) fn read<'a>(&self, recipe: &'a Recipe) -> Result<Values<'a>, String> {
+    pub(super) fn read<'a>(&self, recipe: &'a Recipe) -> Result<RecipeValues<'a>, String> {
         let keys: Vec<&str> = self.parameters.iter().map(|p| p.key).collect();
         let curve_keys: Vec<&str> = self.curves.iter().map(|c| c.key).collect();
         known(self.name, "number", recipe.numbers.keys(), &keys)?;
@@ -121,11 +121,11 @@ impl Law {
                 si.insert(p.key, value * p.si);
             }
         }
-        Ok(Values { law: *self, si, recipe })
+        Ok(RecipeValues { law: *self, si, recipe })
     }
 }
 
-impl Parameter {
+impl LawParameter {
     fn value(&self, law: &str, recipe: &Recipe) -> Result<Option<f64>, String> {
         match (recipe.numbers.get(self.key), self.need) {
             (Some(v), _) if (self.lower..=self.upper).contains(v) => Ok(Some(*v)),
@@ -143,13 +143,13 @@ impl Parameter {
 }
 
 /// Numbers of a checked recipe in SI, with the recipe for its tables.
-pub(super) struct Values<'a> {
+pub(super) struct RecipeValues<'a> {
     law: Law,
     si: BTreeMap<&'static str, f64>,
     recipe: &'a Recipe,
 }
 
-impl Values<'_> {
+impl RecipeValues<'_> {
     /// A number that is required or has a default \[SI\].
     pub(super) fn get(&self, key: &str) -> Result<f64, String> {
         self.optional(key).ok_or_else(|| self.says(format!("write `{key}`")))
@@ -204,35 +204,35 @@ fn known<'a>(law: &str, what: &str, given: impl Iterator<Item = &'a String>, key
     Ok(())
 }
 
-pub(super) const THICKNESS: Parameter =
+pub(super) const THICKNESS: LawParameter =
     number("thickness_mm", "mm", 1e-3, [1e-4, 100.0]).required("thickness of the sheet");
 
 /// A number with its factor to SI, and its bounds as written.
-pub(super) const fn number(key: Text, unit: Text, si: f64, [lower, upper]: [f64; 2]) -> Parameter {
-    Parameter { key, unit, si, lower, upper, need: Need::Required, meaning: "" }
+pub(super) const fn number(key: Text, unit: Text, si: f64, [lower, upper]: [f64; 2]) -> LawParameter {
+    LawParameter { key, unit, si, lower, upper, need: Need::Required, meaning: "" }
 }
 
-pub(super) const fn modulus(key: Text) -> Parameter {
+pub(super) const fn modulus(key: Text) -> LawParameter {
     number(key, "MPa", 1e6, [1e-6, 1e6])
 }
 
-pub(super) const fn ratio(key: Text, bounds: [f64; 2]) -> Parameter {
+pub(super) const fn ratio(key: Text, bounds: [f64; 2]) -> LawParameter {
     number(key, "-", 1.0, bounds)
 }
 
-impl Parameter {
-    pub(super) const fn required(self, meaning: Text) -> Parameter {
-        Parameter { meaning, ..self }
+impl LawParameter {
+    pub(super) const fn required(self, meaning: Text) -> LawParameter {
+        LawParameter { meaning, ..self }
     }
 
-    pub(super) const fn optional(self, meaning: Text) -> Parameter {
+    pub(super) const fn optional(self, meaning: Text) -> LawParameter {
         let need = Need::Optional;
-        Parameter { need, meaning, ..self }
+        LawParameter { need, meaning, ..self }
     }
 
-    pub(super) const fn or(self, value: f64, meaning: Text) -> Parameter {
+    pub(super) const fn or(self, value: f64, meaning: Text) -> LawParameter {
         let need = Need::Default(value);
-        Parameter { need, meaning, ..self }
+        LawParameter { need, meaning, ..self }
     }
 }
 

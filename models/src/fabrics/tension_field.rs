@@ -87,24 +87,24 @@ impl TensionField {
         Ok(TensionField { sheet, share, compliance, samples })
     }
 
-    fn state(&self, e: [f64; 3]) -> State {
+    fn state(&self, e: [f64; 3]) -> FilmState {
         let s = self.sheet.tension(e, &[0.0; 2]);
         if s[0] + s[1] >= 0.0 && s[0] * s[1] >= s[2] * s[2] {
-            return State::Taut;
+            return FilmState::Taut;
         }
         let along = Along { mean: 0.5 * (e[0] + e[1]), cos: 0.5 * (e[0] - e[1]), sin: 0.5 * e[2] };
         if along.mean + along.cos.hypot(along.sin) <= 0.0 {
-            return State::Slack;
+            return FilmState::Slack;
         }
         let x = self.direction(&along);
-        State::Wrinkled { along, x }
+        FilmState::Wrinkled { along, x }
     }
 
     fn relaxed(&self, e: [f64; 3]) -> (f64, [f64; 3]) {
         match self.state(e) {
-            State::Taut => (self.sheet.energy(e, &[0.0; 2]), self.sheet.tension(e, &[0.0; 2])),
-            State::Slack => (0.0, [0.0; 3]),
-            State::Wrinkled { along, x } => {
+            FilmState::Taut => (self.sheet.energy(e, &[0.0; 2]), self.sheet.tension(e, &[0.0; 2])),
+            FilmState::Slack => (0.0, [0.0; 3]),
+            FilmState::Wrinkled { along, x } => {
                 let (sin, cos) = x.sin_cos();
                 let strain = along.at(sin, cos);
                 let sigma = strain / softness(self.compliance, sin, cos)[0];
@@ -200,9 +200,9 @@ impl Fabric for TensionField {
     fn tangent(&self, e: [f64; 3], past: &Past) -> [[f64; 3]; 3] {
         let full = self.sheet.tangent(e, past);
         let own = match self.state(e) {
-            State::Taut => return full,
-            State::Slack => [[0.0; 3]; 3],
-            State::Wrinkled { along, x } => self.wrinkled_tangent(&along, x),
+            FilmState::Taut => return full,
+            FilmState::Slack => [[0.0; 3]; 3],
+            FilmState::Wrinkled { along, x } => self.wrinkled_tangent(&along, x),
         };
         matrix(|i, j| (1.0 - self.share) * own[i][j] + self.share * full[i][j])
     }
@@ -212,7 +212,7 @@ impl Fabric for TensionField {
     }
 }
 
-enum State {
+enum FilmState {
     Taut,
     Slack,
     /// Wrinkled, with tension along one direction only, x/2 from the warp.

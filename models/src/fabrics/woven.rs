@@ -109,7 +109,7 @@ impl Woven {
 
 impl Woven {
     /// ∂S/∂e with these slopes of the yarns' curves and of shear.
-    fn stiffness(&self, yarns: &Stretch, past: &Past, slopes: [f64; 2], steep: f64) -> [[f64; 3]; 3] {
+    fn stiffness(&self, yarns: &YarnStretch, past: &Past, slopes: [f64; 2], steep: f64) -> [[f64; 3]; 3] {
         let t12 = self.shear.value(yarns.gamma);
         let (turn, turns) = yarns.turn();
         let mut k = matrix(|i, j| steep * turn[i] * turn[j] + t12 * turns[i][j]);
@@ -129,14 +129,14 @@ impl Fabric for Woven {
     }
 
     fn energy(&self, e: [f64; 3], past: &Past) -> f64 {
-        let yarns = Stretch::new(e);
+        let yarns = YarnStretch::new(e);
         let [a, b] = yarns.nominal;
         let along = self.yarns[0].energy(a, past[0]) + self.yarns[1].energy(b, past[1]);
         self.thickness_m * (along + self.coupling_pa * a * b + self.shear.integral(yarns.gamma))
     }
 
     fn tension(&self, e: [f64; 3], past: &Past) -> [f64; 3] {
-        let yarns = Stretch::new(e);
+        let yarns = YarnStretch::new(e);
         let [a, b] = yarns.nominal;
         let [l1, l2] = yarns.lambda;
         let t1 = self.yarns[0].stress(a, past[0]) + self.coupling_pa * b;
@@ -147,13 +147,13 @@ impl Fabric for Woven {
     }
 
     fn tangent(&self, e: [f64; 3], past: &Past) -> [[f64; 3]; 3] {
-        let yarns = Stretch::new(e);
+        let yarns = YarnStretch::new(e);
         let slopes = [0, 1].map(|i| self.yarns[i].slope(yarns.nominal[i], past[i]));
         self.stiffness(&yarns, past, slopes, self.shear.slope(yarns.gamma))
     }
 
     fn steepest(&self, e: [f64; 3], past: &Past, reach: f64) -> [[f64; 3]; 3] {
-        let yarns = Stretch::new(e);
+        let yarns = YarnStretch::new(e);
         let slopes = [0, 1].map(|i| self.yarns[i].steepest(yarns.nominal[i], past[i], reach));
         self.stiffness(&yarns, past, slopes, self.shear.steepest(yarns.gamma - reach, yarns.gamma + reach))
     }
@@ -163,7 +163,7 @@ impl Fabric for Woven {
     }
 
     fn remember(&self, e: [f64; 3], past: &mut Past) {
-        let seen = Stretch::new(e).nominal;
+        let seen = YarnStretch::new(e).nominal;
         *past = [past[0].max(seen[0]), past[1].max(seen[1])];
     }
 
@@ -172,7 +172,7 @@ impl Fabric for Woven {
     }
 }
 
-struct Stretch {
+struct YarnStretch {
     lambda: [f64; 2],
     nominal: [f64; 2],
     gamma: f64,
@@ -180,8 +180,8 @@ struct Stretch {
     cos: f64,
 }
 
-impl Stretch {
-    fn new(e: [f64; 3]) -> Stretch {
+impl YarnStretch {
+    fn new(e: [f64; 3]) -> YarnStretch {
         // A collapsed element ends as a finite number that the guards see, not as NaN.
         const LEAST: f64 = 1e-6;
         let lambda = [e[0], e[1]].map(|x| (1.0 + 2.0 * x).max(LEAST * LEAST).sqrt());
@@ -189,7 +189,7 @@ impl Stretch {
         let nominal = [2.0 * e[0] / (1.0 + lambda[0]), 2.0 * e[1] / (1.0 + lambda[1])];
         let sin = (e[2] / (lambda[0] * lambda[1])).clamp(-1.0, 1.0);
         let cos = ((1.0 - sin) * (1.0 + sin)).sqrt().max(LEAST);
-        Stretch { lambda, nominal, gamma: sin.asin(), sin, cos }
+        YarnStretch { lambda, nominal, gamma: sin.asin(), sin, cos }
     }
 
     /// ∂γ/∂e and ∂²γ/∂e²: differentiate −tan γ/λ² and 1/(λ₁λ₂ cos γ) once more, with ∂λ⁻²/∂e = −2λ⁻⁴.
@@ -207,7 +207,7 @@ impl Stretch {
     }
 }
 
-fn from_values(v: &Values) -> Result<Woven, String> {
+fn from_values(v: &RecipeValues) -> Result<Woven, String> {
     v.exactly_one(&["e0_MPa", "warp"])?;
     v.exactly_one(&["e90_MPa", "fill"])?;
     v.exactly_one(&["e45_MPa", "g_MPa", "shear", "bias_extension"])?;
@@ -222,7 +222,7 @@ fn from_values(v: &Values) -> Result<Woven, String> {
     Woven::new(yarns, locked(v, shear)?, nu12, v.get("thickness_mm")?).map_err(|m| v.says(m))
 }
 
-fn yarn(v: &Values, modulus: &str, curve: &str, unloading: &str) -> Result<Yarn, String> {
+fn yarn(v: &RecipeValues, modulus: &str, curve: &str, unloading: &str) -> Result<Yarn, String> {
     let load = match v.curve(curve)? {
         Some(table) => table,
         None => Curve::linear(v.get(modulus)?),
@@ -238,7 +238,7 @@ fn yarn(v: &Values, modulus: &str, curve: &str, unloading: &str) -> Result<Yarn,
     Yarn::new(load, v.curve(unloading)?).map_err(|m| v.says(format!("curve `{unloading}`: {m}")))
 }
 
-fn bias_extension(v: &Values) -> Result<Option<Curve>, String> {
+fn bias_extension(v: &RecipeValues) -> Result<Option<Curve>, String> {
     let thickness_m = v.get("thickness_mm")?;
     match (v.curve("bias_extension")?, v.optional("bias_length_mm"), v.optional("bias_width_mm")) {
         (Some(test), Some(length_m), Some(width_m)) => {
@@ -253,7 +253,7 @@ fn bias_extension(v: &Values) -> Result<Option<Curve>, String> {
     }
 }
 
-fn locked(v: &Values, shear: Curve) -> Result<Curve, String> {
+fn locked(v: &RecipeValues, shear: Curve) -> Result<Curve, String> {
     /// Steep against the cloth, soft enough not to shorten the time step much: assumed, not measured.
     const STEEPER: f64 = 10.0;
     match (v.optional("locking_deg"), v.optional("locking_MPa")) {
@@ -263,7 +263,7 @@ fn locked(v: &Values, shear: Curve) -> Result<Curve, String> {
     }
 }
 
-const fn strip(key: &'static str, meaning: &'static str) -> Parameter {
+const fn strip(key: &'static str, meaning: &'static str) -> LawParameter {
     number(key, "mm", 1e-3, [1.0, 1e4]).optional(meaning)
 }
 

@@ -36,7 +36,7 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use super::fabric::{Fabric, Kind, NeoHookean, Past, WrinklingFilm, matrix};
+use super::fabric::{Fabric, InlinedFabric, NeoHookean, Past, WrinklingFilm, matrix};
 use super::recipe::*;
 
 pub(super) const ENTRY: Law = Law {
@@ -171,7 +171,7 @@ impl Fabric for WrinklingFilm {
         matrix(|i, j| own(i, j) + carried * (full[i][j] - own(i, j)) - fall * excess[i] * excess[j])
     }
 
-    fn kind(&self) -> Kind<'_> {
-        Kind::WrinklingFilm(self)
+    fn kind(&self) -> InlinedFabric<'_> {
+        InlinedFabric::WrinklingFilm(self)
     }
 }

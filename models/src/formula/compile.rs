@@ -24,7 +24,7 @@ pub(crate) struct Compiled {
 
 pub(crate) fn compile(text: &str, names: &[Name]) -> Checked<Compiled> {
     let used = vec![false; names.len()];
-    let mut reader = Reader { text, at: 0, names, program: Vec::new(), used, depth: 0, nesting: 0 };
+    let mut reader = FormulaReader { text, at: 0, names, program: Vec::new(), used, depth: 0, nesting: 0 };
     let part = reader.sum()?;
     reader.skip_space();
     if reader.at < text.len() {
@@ -37,14 +37,14 @@ pub(crate) fn compile(text: &str, names: &[Name]) -> Checked<Compiled> {
 }
 
 #[derive(Clone, Copy)]
-struct Part {
+struct Subexpression {
     dimension: Dimension,
     /// Its value, if it is made of numbers alone.
     value: Option<f64>,
     at: (usize, usize),
 }
 
-struct Reader<'a> {
+struct FormulaReader<'a> {
     text: &'a str,
     at: usize,
     names: &'a [Name<'a>],
@@ -56,8 +56,8 @@ struct Reader<'a> {
 
 const NESTING: usize = 64;
 
-impl<'a> Reader<'a> {
-    fn sum(&mut self) -> Checked<Part> {
+impl<'a> FormulaReader<'a> {
+    fn sum(&mut self) -> Checked<Subexpression> {
         let mut left = self.product()?;
         while let Some(sign) = self.take(&['+', '-']) {
             let right = self.product()?;
@@ -71,7 +71,7 @@ impl<'a> Reader<'a> {
         Ok(left)
     }
 
-    fn product(&mut self) -> Checked<Part> {
+    fn product(&mut self) -> Checked<Subexpression> {
         let mut left = self.sign()?;
         while let Some(sign) = self.take(&['*', '/']) {
             let right = self.sign()?;
@@ -80,12 +80,12 @@ impl<'a> Reader<'a> {
                 _ => (-1.0, |a, b| a / b),
             };
             let dimension = left.dimension.times(right.dimension, power);
-            left = Part { dimension, ..self.joined(left, right, law) };
+            left = Subexpression { dimension, ..self.joined(left, right, law) };
         }
         Ok(left)
     }
 
-    fn sign(&mut self) -> Checked<Part> {
+    fn sign(&mut self) -> Checked<Subexpression> {
         let start = self.here();
         let Some(sign) = self.take(&['-', '+']) else { return self.power() };
         self.enter(start)?;
@@ -95,10 +95,10 @@ impl<'a> Reader<'a> {
         if minus {
             self.program.push(Op::Apply(|x| -x));
         }
-        Ok(Part { value: part.value.map(|v| if minus { -v } else { v }), at: (start, part.at.1), ..part })
+        Ok(Subexpression { value: part.value.map(|v| if minus { -v } else { v }), at: (start, part.at.1), ..part })
     }
 
-    fn power(&mut self) -> Checked<Part> {
+    fn power(&mut self) -> Checked<Subexpression> {
         let base = self.atom()?;
         if self.take(&['^']).is_none() {
             return Ok(base);
@@ -127,10 +127,10 @@ impl<'a> Reader<'a> {
             self.program.truncate(before);
             self.program.push(Op::Whole(whole as i32));
         }
-        Ok(Part { dimension, ..part })
+        Ok(Subexpression { dimension, ..part })
     }
 
-    fn atom(&mut self) -> Checked<Part> {
+    fn atom(&mut self) -> Checked<Subexpression> {
         let start = self.here();
         match self.text[start..].chars().next() {
             Some('(') => {
@@ -139,7 +139,7 @@ impl<'a> Reader<'a> {
                 let inner = self.sum()?;
                 self.close(start)?;
                 self.nesting -= 1;
-                Ok(Part { at: (start, self.at), ..inner })
+                Ok(Subexpression { at: (start, self.at), ..inner })
             }
             Some(c) if c.is_ascii_digit() || c == '.' => self.number(start),
             Some(c) if c.is_alphabetic() || c == '_' => self.name(start),
@@ -153,7 +153,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn number(&mut self, start: usize) -> Checked<Part> {
+    fn number(&mut self, start: usize) -> Checked<Subexpression> {
         let bytes = self.text.as_bytes();
         let mut end = start;
         while end < bytes.len() && (bytes[end].is_ascii_digit() || bytes[end] == b'.') {
@@ -173,10 +173,10 @@ impl<'a> Reader<'a> {
             return fault(format!("`{text}` is not a number")).help("write for example 0.5 or 2e-3").within(at);
         };
         self.push(Op::Number(value), at)?;
-        Ok(Part { dimension: Dimension::NONE, value: Some(value), at })
+        Ok(Subexpression { dimension: Dimension::NONE, value: Some(value), at })
     }
 
-    fn name(&mut self, start: usize) -> Checked<Part> {
+    fn name(&mut self, start: usize) -> Checked<Subexpression> {
         let (name, at) = self.next_word();
         self.at = at.1;
         self.skip_space();
@@ -192,10 +192,10 @@ impl<'a> Reader<'a> {
         };
         self.used[place] = true;
         self.push(Op::Load(place), at)?;
-        Ok(Part { dimension: self.names[place].dimension, value: None, at })
+        Ok(Subexpression { dimension: self.names[place].dimension, value: None, at })
     }
 
-    fn call(&mut self, name: &str, at: (usize, usize)) -> Checked<Part> {
+    fn call(&mut self, name: &str, at: (usize, usize)) -> Checked<Subexpression> {
         let open = self.at;
         self.at += 1;
         let first = self.sum()?;
@@ -208,7 +208,7 @@ impl<'a> Reader<'a> {
             }
             self.program.push(Op::Apply(*law));
             let dimension = Dimension::NONE.times(first.dimension, power.unwrap_or(0.0));
-            return Ok(Part { dimension, value: None, at: (at.0, self.at) });
+            return Ok(Subexpression { dimension, value: None, at: (at.0, self.at) });
         }
         let Some((_, law)) = PAIRS.iter().find(|known| known.0 == name) else {
             let known: Vec<&str> = FUNCTIONS.iter().map(|f| f.0).chain(PAIRS.iter().map(|f| f.0)).collect();
@@ -222,7 +222,7 @@ impl<'a> Reader<'a> {
         let second = self.sum()?;
         self.close(open)?;
         alike(&first, &second, "compared with")?;
-        Ok(Part { value: None, at: (at.0, self.at), ..self.joined(first, second, *law) })
+        Ok(Subexpression { value: None, at: (at.0, self.at), ..self.joined(first, second, *law) })
     }
 
     fn close(&mut self, open: usize) -> Checked<()> {
@@ -250,11 +250,11 @@ impl<'a> Reader<'a> {
     }
 
     /// Two parts as one by a law, of the dimension of the left.
-    fn joined(&mut self, left: Part, right: Part, law: Two) -> Part {
+    fn joined(&mut self, left: Subexpression, right: Subexpression, law: Two) -> Subexpression {
         self.program.push(Op::Combine(law));
         self.depth -= 1;
         let value = left.value.zip(right.value).map(|(a, b)| law(a, b));
-        Part { dimension: left.dimension, value, at: (left.at.0, right.at.1) }
+        Subexpression { dimension: left.dimension, value, at: (left.at.0, right.at.1) }
     }
 
     fn skip_space(&mut self) {
@@ -284,7 +284,7 @@ impl<'a> Reader<'a> {
 }
 
 /// Only like can be added and compared.
-fn alike(left: &Part, right: &Part, verb: &str) -> Checked<()> {
+fn alike(left: &Subexpression, right: &Subexpression, verb: &str) -> Checked<()> {
     if left.dimension.is(right.dimension) {
         return Ok(());
     }

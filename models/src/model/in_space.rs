@@ -4,7 +4,7 @@ use super::{Model, Prediction, Tip, post};
 use crate::assembly::Segment;
 use crate::error::{Solved, Unsolved};
 use crate::robot::Workspace;
-use crate::space::{Bend, Section, SectionState, Stretch, StripState, place, stretch};
+use crate::space::{Bend, SectionState, SpaceStretch, StripSection, StripState, place, stretch};
 use crate::term::{CHANNELS, Row, RowKind};
 
 impl Model {
@@ -29,7 +29,7 @@ impl Model {
         self.assembly().segments.iter().zip(work.bends.iter().zip(&work.strips)).map(section)
     }
 
-    pub(crate) fn stretch_in_space(&self, work: &Workspace, segment: usize) -> Stretch {
+    pub(crate) fn stretch_in_space(&self, work: &Workspace, segment: usize) -> SpaceStretch {
         stretch(self.assembly(), &work.space, segment)
     }
 
@@ -74,7 +74,7 @@ impl Model {
 
     pub(crate) fn ledger_in_space(&self, body_pa: f64, at: &Prediction, rows: &mut Vec<Row>) {
         for (i, segment) in self.assembly().segments.iter().enumerate() {
-            let section = Section::new(self.assembly(), i, body_pa);
+            let section = StripSection::new(self.assembly(), i, body_pa);
             section.energies(&at.work.space.bends[i], &at.work.space.strips[i], &mut |line, energy| {
                 post(rows, line, RowKind::Stored, energy * segment.length_m);
             });

@@ -2,7 +2,7 @@
 
 use super::workspace::Workspace;
 use crate::assembly::Assembly;
-use crate::error::{Place, Solved, Unsolved};
+use crate::error::{FailurePlace, Solved, Unsolved};
 use crate::history::History;
 use crate::root::NoRoot;
 use crate::shape::{Arc, advance, arc, slid, turned};
@@ -156,7 +156,7 @@ fn unsolved(error: NoRoot, site: &Site, start_m: f64, loads: &SiteLoads) -> Unso
         NoRoot::Stalled { f } => (f, f),
     };
     let [s_mm, p_act_kpa, p_body_kpa] = [start_m * 1e3, loads.p_act_pa / 1e3, loads.p_body_pa / 1e3];
-    let place = Place { s_mm, p_act_kpa, p_body_kpa };
+    let place = FailurePlace { s_mm, p_act_kpa, p_body_kpa };
     let imbalance = low.abs().max(high.abs());
     let extreme = site.extreme(loads).filter(|extreme| extreme.moment > TO_BLAME * imbalance || !imbalance.is_finite());
     let law = if imbalance.is_finite() { None } else { site.without_value(loads) };
@@ -269,7 +269,7 @@ pub(super) fn newton_step(assembly: &Assembly, work: &mut Workspace) -> bool {
 mod tests {
     use super::*;
     use crate::assembly::Segment;
-    use crate::body::Bending;
+    use crate::body::WallBending;
 
     /// Segments of unequal length; only their lengths matter here.
     fn assembly(lengths: &[f64]) -> Assembly {
@@ -283,7 +283,7 @@ mod tests {
         let n = lengths.len();
         let number = |i: usize, k: usize| ((i * 37 + k * 11) % 17) as f64 / 17.0 - 0.4;
         let mut assembly = assembly(&lengths);
-        assembly.node_terms.push(Box::new(Bending { stiffness: 0.0 }));
+        assembly.node_terms.push(Box::new(WallBending { stiffness: 0.0 }));
         let mut work = Workspace::new(&assembly);
         for i in 0..n {
             work.states[i].compliance = 0.5 + number(i, 1);

@@ -8,7 +8,7 @@ use crate::space::SpaceWork;
 
 /// Curvatures to hold, and the missing moments there; empty where nothing is held.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Held {
+pub(crate) struct HeldCurvatures {
     pub curvatures: Vec<f64>,
     pub missing: Vec<f64>,
 }
@@ -27,7 +27,7 @@ pub(crate) struct Workspace {
     /// What the states before have left behind.
     pub history: History,
     /// Where the robot is held instead of solved for.
-    pub held: Held,
+    pub held: HeldCurvatures,
     /// What a robot in space has in addition.
     pub space: SpaceWork,
     pub(super) coupled: Coupled,
@@ -62,7 +62,7 @@ impl Workspace {
             directions: vec![[1.0, 0.0]; segments + 1],
             headings: vec![0.0; segments + 1],
             history: History::new(assembly),
-            held: Held::default(),
+            held: HeldCurvatures::default(),
             space: SpaceWork::new(assembly),
             coupled: Coupled {
                 arcs: vec![Arc::default(); n],

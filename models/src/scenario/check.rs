@@ -5,7 +5,7 @@ use super::choice::ActuatorChoice;
 use super::formulas::formulas;
 use super::given::{Checked, Given, fault, si, unit};
 use super::keys::{REMARKS, SEGMENTS};
-use super::raw::{Entries, Raw};
+use super::raw::{Entries, RawScenario};
 use super::stated::{BASES, EffectChoice, Scenario, Wall, Zone, order};
 use super::strips::{actuator, check_space, more_strips};
 use crate::catalogue::Catalogue;
@@ -16,7 +16,7 @@ use spelling::units::Range;
 use std::sync::Arc;
 use toml::Spanned;
 
-pub(super) fn scenario(raw: &Raw, text: &str) -> Checked<Scenario> {
+pub(super) fn scenario(raw: &RawScenario, text: &str) -> Checked<Scenario> {
     let body = Given::new("body", &raw.body)?;
     let (length_m, radius_m) = (body.need("length_mm")?, body.need("radius_mm")?);
     let first = raw.actuator.as_ref().map(|table| Given::new("actuator", table)).transpose()?;
@@ -153,7 +153,7 @@ pub(super) fn are_too_low(last_m: f64, length_m: f64) -> bool {
     last_m < 0.002 && length_m > 0.05
 }
 
-fn segments(raw: &Raw) -> Checked<usize> {
+fn segments(raw: &RawScenario) -> Checked<usize> {
     let Some(value) = &raw.predict.segments else { return Ok(12) };
     si(&Spanned::new(value.span(), *value.get_ref() as f64), &SEGMENTS).map(|count| count as usize)
 }
@@ -163,7 +163,7 @@ pub(super) fn is_known(basis: &str) -> bool {
     ["measured", "published", "calibrated"].contains(&basis)
 }
 
-fn effects_of(raw: &Raw, actuator: &ActuatorChoice, formulas: &[Arc<Formula>]) -> Checked<Vec<EffectChoice>> {
+fn effects_of(raw: &RawScenario, actuator: &ActuatorChoice, formulas: &[Arc<Formula>]) -> Checked<Vec<EffectChoice>> {
     let (mut chosen, catalogue) = (Vec::new(), Catalogue::new(formulas));
     for (name, table) in &raw.effects {
         let Some(effect) = catalogue.by_name(name.get_ref()) else {

@@ -1,6 +1,6 @@
 //! The actuator of a scenario: its kind, its units and where they lie.
 
-use crate::actuators::pattern::Joint;
+use crate::actuators::pattern::ChamberBottom;
 use crate::actuators::{Actuator, ActuatorShape, BEAM, BIAS};
 use crate::effects::Effect;
 use std::f64::consts::TAU;
@@ -46,7 +46,7 @@ impl ActuatorChoice {
 
     /// Whether the body's wall is the bottom of its pouches.
     pub fn in_wall(&self) -> bool {
-        matches!((self.kind.pattern)(&self.shape).joint, Joint::Wall)
+        matches!((self.kind.pattern)(&self.shape).joint, ChamberBottom::Wall)
     }
 
     /// Whether an effect can act on this robot: effects of a family, and all inside an actuator, need one.

@@ -1,7 +1,7 @@
 //! `[[formula]]`: effects that the scenario itself defines by a moment.
 
 use super::given::{Checked, fault, unit};
-use super::raw::{Raw, RawFormula, RawParameter};
+use super::raw::{RawFormula, RawParameter, RawScenario};
 use crate::effects::{EFFECTS, PLAIN, Parameter};
 use crate::error::ScenarioError;
 use crate::formula::{self, Formula, FormulaParameter, MOST_PARAMETERS};
@@ -10,7 +10,7 @@ use std::ops::Range;
 use std::sync::Arc;
 use toml::Spanned;
 
-pub(super) fn formulas(raw: &Raw, text: &str) -> Checked<Vec<Arc<Formula>>> {
+pub(super) fn formulas(raw: &RawScenario, text: &str) -> Checked<Vec<Arc<Formula>>> {
     let mut found: Vec<Arc<Formula>> = Vec::new();
     for entry in &raw.formula {
         let raw = entry.get_ref();

@@ -21,12 +21,12 @@ pub struct Key {
     /// Meaning in a few words, for documents, messages and sliders.
     pub meaning: &'static str,
     /// Its number in SI, in the first of its tables.
-    field: Option<Field>,
+    field: Option<NumberAccess>,
 }
 
 /// A number of a scenario, read and set.
 #[derive(Debug, Clone, Copy)]
-struct Field {
+struct NumberAccess {
     get: fn(&Scenario) -> f64,
     set: fn(&mut Scenario, f64),
     is_whole: bool,
@@ -34,9 +34,9 @@ struct Field {
 
 /// The field of a number, and the field of a whole number.
 macro_rules! field {
-    ($($part:ident).+) => { Field { get: |s| s.$($part).+, set: |s, si| s.$($part).+ = si, is_whole: false } };
+    ($($part:ident).+) => { NumberAccess { get: |s| s.$($part).+, set: |s, si| s.$($part).+ = si, is_whole: false } };
     (whole $($part:ident).+) => {
-        Field { get: |s| s.$($part).+ as f64, set: |s, si| s.$($part).+ = si as usize, is_whole: true }
+        NumberAccess { get: |s| s.$($part).+ as f64, set: |s, si| s.$($part).+ = si as usize, is_whole: true }
     };
 }
 
@@ -78,7 +78,7 @@ pub fn moves_nothing(place: &str) -> bool {
 /// Words that may stand next to the parameters of an effect: how they are known.
 pub(super) const REMARKS: &[&str] = &["basis", "interval", "data", "date", "note"];
 
-const fn number(tables: &'static [Text], name: Text, range: Range, meaning: Text, field: Field) -> Key {
+const fn number(tables: &'static [Text], name: Text, range: Range, meaning: Text, field: NumberAccess) -> Key {
     let (range, field) = (Some(range), Some(field));
     Key { tables, name, range, meaning, field }
 }

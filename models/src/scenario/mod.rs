@@ -77,7 +77,7 @@ impl Scenario {
     /// # Errors
     /// Syntax errors, unknown keys and values that cannot be, each with its place in the text.
     pub fn parse(text: &str) -> Result<Scenario, ScenarioError> {
-        let raw: raw::Raw = toml::from_str(text).map_err(raw::syntax)?;
+        let raw: raw::RawScenario = toml::from_str(text).map_err(raw::syntax)?;
         check::scenario(&raw, text)
     }
 }

@@ -10,7 +10,7 @@ type Num = Spanned<f64>;
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Raw {
+pub(super) struct RawScenario {
     #[serde(default)]
     pub name: String,
     /// Free text for people; no model reads it.

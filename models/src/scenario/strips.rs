@@ -3,7 +3,7 @@
 use super::built::is_off;
 use super::choice::ActuatorChoice;
 use super::given::{Checked, Given, fault};
-use super::raw::{Entries, Raw};
+use super::raw::{Entries, RawScenario};
 use super::stated::Scenario;
 use crate::actuators::{self, ACTUATORS, Actuator, ActuatorShape, BIAS, Family};
 use crate::effects::IN_SPACE;
@@ -118,7 +118,7 @@ fn overlap(a: &ActuatorChoice, b: &ActuatorChoice, radius_m: f64) -> bool {
 }
 
 /// Refuses a force across the plane in which a robot bends.
-fn no_z(scenario: &Scenario, raw: &Raw) -> Checked<()> {
+fn no_z(scenario: &Scenario, raw: &RawScenario) -> Checked<()> {
     let name = raw.effects.keys().find(|name| name.get_ref() == "tip_load");
     match (scenario.idle_force_n(), name) {
         (Some(force), Some(name)) => fault(format!(
@@ -131,7 +131,7 @@ fn no_z(scenario: &Scenario, raw: &Raw) -> Checked<()> {
 }
 
 /// Refuses keys and effects that do not cover strips round the body.
-pub(super) fn check_space(scenario: &Scenario, raw: &Raw, body: &Given) -> Checked<()> {
+pub(super) fn check_space(scenario: &Scenario, raw: &RawScenario, body: &Given) -> Checked<()> {
     if !scenario.is_spatial() {
         return no_z(scenario, raw);
     }

@@ -3,8 +3,8 @@
 use super::Site;
 use crate::actuators::Stroke;
 use crate::body::soft_step;
-use crate::section::Section;
-use crate::statics::Pull;
+use crate::section::CutSection;
+use crate::statics::StripPull;
 use std::f64::consts::PI;
 
 /// Newton steps; 3 to 8 are usual.
@@ -25,16 +25,16 @@ impl Site {
     }
 
     /// Section of its body around the strip, drawn in to a chord: all effects read it here. `None`: too wide for the body.
-    pub(crate) fn drawn_in(&self, chord_m: f64) -> Option<Section> {
-        Section::drawn_in(self.radius_m, self.strip_m, chord_m)
+    pub(crate) fn drawn_in(&self, chord_m: f64) -> Option<CutSection> {
+        CutSection::drawn_in(self.radius_m, self.strip_m, chord_m)
     }
 
     /// What an actuator that pulls at a coordinate makes of the section.
-    pub(crate) fn pull(&self, azimuth_rad: f64, coordinate: f64) -> Pull {
+    pub(crate) fn pull(&self, azimuth_rad: f64, coordinate: f64) -> StripPull {
         let arm =
             self.actuator.map_or(self.linkage.arm_m, |actuator| self.arm(&(actuator.stroke)(&self.shape, coordinate)));
         let lost_m2 = PI * self.radius_m.powi(2) - self.area_m2;
-        Pull { azimuth_rad, from_axis_m: arm - self.radius_m, lost_m2, first_m3: self.first_m3 }
+        StripPull { azimuth_rad, from_axis_m: arm - self.radius_m, lost_m2, first_m3: self.first_m3 }
     }
 
     /// Curvature \[1/m\] of a line at distance `arm` from the far side that shortens by `strain`, and its lever \[m\].

@@ -1,12 +1,12 @@
 //! Energies of a section, by line of the ledger.
 
 use super::frame::Bend;
-use super::section::{Section, dot};
+use super::section::{StripSection, dot};
 use super::state::StripState;
-use crate::body::{BODY_PRESSURE, Bending};
+use crate::body::{BODY_PRESSURE, WallBending};
 use crate::term::{LedgerLine, Pose, Term};
 
-impl Section<'_> {
+impl StripSection<'_> {
     /// Energies per metre of body \[J/m\] by line of the ledger.
     pub(crate) fn energies(&self, bend: &Bend, strips: &[StripState], post: &mut dyn FnMut(LedgerLine, f64)) {
         for (strip, state) in self.strips.iter().zip(strips) {
@@ -23,6 +23,6 @@ impl Section<'_> {
             false => self.area_m2 * bend.contraction + dot(self.moment_m3, bend.kappa),
         };
         post(BODY_PRESSURE, self.p_body_pa * gas);
-        post(Bending { stiffness: 0.0 }.line(), 0.5 * self.bending * dot(bend.kappa, bend.kappa));
+        post(WallBending { stiffness: 0.0 }.line(), 0.5 * self.bending * dot(bend.kappa, bend.kappa));
     }
 }

@@ -50,7 +50,7 @@ impl Bend {
 }
 
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Stretch {
+pub(crate) struct SpaceStretch {
     pub from: Frame,
     pub bend: Bend,
     pub contraction: f64,
@@ -60,7 +60,7 @@ pub(crate) fn mix(a: f64, x: [f64; 3], b: f64, y: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|i| a * x[i] + b * y[i])
 }
 
-impl Stretch {
+impl SpaceStretch {
     /// Place and frame at a distance from its start \[m\].
     pub(crate) fn at(&self, offset_m: f64) -> Frame {
         let Frame { at, tangent, sides } = self.from;

@@ -7,7 +7,7 @@
 //!
 //! ε is the contraction of the centre line, x the end of the segment, x_k a node beyond it.
 
-use super::frame::Stretch;
+use super::frame::SpaceStretch;
 use crate::shape::{SERIES_BELOW, alternating, inverse_of, sinc_pair};
 
 pub(super) type Vector = [f64; 3];
@@ -55,12 +55,12 @@ pub(crate) fn inverse(a: &Matrix) -> Matrix {
 
 /// Forces beyond a segment about its end: their sum S, and Σ F ⊗ (x_k − x).
 #[derive(Default)]
-pub(super) struct Beyond {
+pub(super) struct OuterForces {
     pub force: Vector,
     pub tensor: Matrix,
 }
 
-impl Beyond {
+impl OuterForces {
     pub(super) fn add(&mut self, force: &[f64]) {
         self.force.iter_mut().zip(force).for_each(|(sum, f)| *sum += f);
     }
@@ -94,7 +94,7 @@ pub(super) struct Lever {
 }
 
 impl Lever {
-    pub(super) fn new(stretch: &Stretch, length_m: f64) -> Lever {
+    pub(super) fn new(stretch: &SpaceStretch, length_m: f64) -> Lever {
         let (from, [ky, kz]) = (stretch.from, stretch.bend.kappa);
         let w = [ky * length_m, kz * length_m];
         let [a, b, a1, b1, c] = even(w[0].hypot(w[1]));
@@ -128,13 +128,13 @@ impl Lever {
     }
 
     /// Work of the forces beyond per change \[N·m², N·m\].
-    pub(super) fn work(&self, beyond: &Beyond) -> Vector {
+    pub(super) fn work(&self, beyond: &OuterForces) -> Vector {
         let moment = beyond.moment();
         std::array::from_fn(|q| dot(self.shift[q], beyond.force) + dot(self.turn[q], moment))
     }
 
     /// What a turn of the segments before changes of that work, per turn: Σ ∂x_k/∂q × F.
-    pub(super) fn turned(&self, beyond: &Beyond) -> Matrix {
+    pub(super) fn turned(&self, beyond: &OuterForces) -> Matrix {
         let trace = beyond.trace();
         std::array::from_fn(|q| {
             let (way, turn) = (cross(self.shift[q], beyond.force), self.turn[q]);
@@ -143,7 +143,7 @@ impl Lever {
     }
 
     /// What its own changes change of that work, without terms of the order of its turn squared: for Newton's step.
-    pub(super) fn own(&self, beyond: &Beyond) -> Matrix {
+    pub(super) fn own(&self, beyond: &OuterForces) -> Matrix {
         let trace = beyond.trace();
         let lever = |p: Vector, q: Vector| dot(q, apply(&beyond.tensor, p));
         of_each(|p, q| match (p, q) {
@@ -174,7 +174,7 @@ fn even(u: f64) -> [f64; 5] {
 pub(crate) type Outer = [f64; 3];
 
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Loaded {
+pub(crate) struct LoadedSections {
     pub(super) sections: Vec<Coupling>,
     pub(super) nodes: Vec<f64>,
     pub(super) forces: Vec<f64>,
@@ -198,10 +198,14 @@ pub(crate) struct Coupling {
     pub(super) slope: Matrix,
 }
 
-impl Loaded {
-    pub(super) fn new(segments: usize) -> Loaded {
+impl LoadedSections {
+    pub(super) fn new(segments: usize) -> LoadedSections {
         let nodes = if segments == 0 { 0 } else { 3 * (segments + 1) };
-        Loaded { sections: vec![Coupling::default(); segments], nodes: vec![0.0; nodes], forces: vec![0.0; nodes] }
+        LoadedSections {
+            sections: vec![Coupling::default(); segments],
+            nodes: vec![0.0; nodes],
+            forces: vec![0.0; nodes],
+        }
     }
 
     /// Loads on a section: moments on κ_y and κ_z \[N·m\], and the force that shortens the centre line \[N\].

@@ -8,8 +8,8 @@
 //!
 //! Equilibrium is G(q(g)) = g: every section at its own minimum under the loads g, as in the plane (`robot/coupled.rs`).
 
-use super::lever::{Beyond, Coupling, Lever, apply, dot, inverse, of_each, times, transposed};
-use super::section::Section;
+use super::lever::{Coupling, Lever, OuterForces, apply, dot, inverse, of_each, times, transposed};
+use super::section::StripSection;
 use super::state::{SpaceWork, place, stretch};
 use crate::assembly::Assembly;
 use crate::error::{Solved, Unsolved};
@@ -85,7 +85,7 @@ fn damped_step(
 /// Every section at its minimum under the assumed loads; returns the largest disagreement of moments \[N·m\], NaN if any is.
 fn update(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) -> Solved<f64> {
     for i in 0..assembly.segments.len() {
-        let section = Section::new(assembly, i, p_body_pa).under(work.loaded.sections[i].outer);
+        let section = StripSection::new(assembly, i, p_body_pa).under(work.loaded.sections[i].outer);
         let (bend, compliance) = section.solve_under(&mut work.strips[i], work.bends[i])?;
         (work.bends[i], work.loaded.sections[i].compliance) = (bend, compliance);
     }
@@ -107,7 +107,7 @@ pub(super) fn couple(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) 
     for term in &assembly.node_terms {
         term.add_force(&pose, &mut loaded.forces);
     }
-    let mut beyond = Beyond::default();
+    let mut beyond = OuterForces::default();
     for (i, segment) in assembly.segments.iter().enumerate().rev() {
         let (own, end) = (stretch(assembly, work, i), work.frames[i + 1].at);
         let lever = Lever::new(&own, segment.length_m);

@@ -2,7 +2,7 @@
 
 use super::frame::{Bend, direction};
 use super::lever::{Matrix, of_each};
-use super::section::{Acting, FLAT, STRAIGHT, Section, dot};
+use super::section::{Acting, FLAT, STRAIGHT, StripSection, dot};
 use super::state::StripState;
 use crate::error::Solved;
 
@@ -13,7 +13,7 @@ const MOST_GIVE: f64 = 1e3;
 /// First bend that is tried from a straight body, over 1/R.
 const FIRST_BEND: f64 = 0.1;
 
-impl Section<'_> {
+impl StripSection<'_> {
     /// The equilibrium, from a state nearby, and its compliance: the change of κ and ε per change of the loads.
     pub(super) fn solve_under(&self, strips: &mut [StripState], near: Bend) -> Solved<(Bend, Matrix)> {
         let bend = match self.acting(strips) {

@@ -3,7 +3,7 @@
 use super::frame::direction;
 use super::lever::{Coupling, Outer};
 use super::loaded::couple;
-use super::section::Section;
+use super::section::StripSection;
 use super::tests::{at, full, random, robot};
 use super::*;
 use crate::term::RowKind;
@@ -134,7 +134,7 @@ fn at_equilibrium_no_bend_of_any_section_has_less_potential_energy() {
         let scenario = loaded(&scenario, 50.0, 0.3, [0.05, 0.1]);
         let (model, out) = at(&scenario, kpa);
         let potential = |work: &SpaceWork, i: usize| {
-            let section = Section::new(model.assembly(), i, 2e3);
+            let section = StripSection::new(model.assembly(), i, 2e3);
             let (bend, mut strips) = (work.bends[i], work.strips[i].clone());
             let own = section.energy(&mut strips, bend.kappa, bend.contraction);
             own * model.assembly().segments[i].length_m + outer_energy(&model, work)

@@ -56,9 +56,9 @@ use crate::error::{Solved, Unsolved};
 use crate::scenario::ActuatorChoice;
 use crate::site::{Site, SiteState};
 pub use frame::Frame;
-pub(crate) use frame::{Bend, Stretch, direction};
+pub(crate) use frame::{Bend, SpaceStretch, direction};
 pub(crate) use lever::{Matrix, cross, inverse, of_each, outer, times};
-pub(crate) use section::Section;
+pub(crate) use section::StripSection;
 pub use state::{SectionState, StripState};
 pub(crate) use state::{SpaceWork, place, stretch};
 pub(crate) use tip::tip_compliance;
@@ -100,7 +100,7 @@ fn unloaded(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) -> Solved
             after[0].copy_from_slice(&before[i - 1]);
             work.bends[i] = work.bends[i - 1];
         } else {
-            let section = Section::new(assembly, i, p_body_pa);
+            let section = StripSection::new(assembly, i, p_body_pa);
             work.bends[i] = section.solve(&mut work.strips[i])?;
         }
     }

@@ -14,7 +14,7 @@
 
 use super::frame::Bend;
 use super::lever::Matrix;
-use super::section::{Balance, STRAIGHT, Section, dot};
+use super::section::{STRAIGHT, SectionBalance, StripSection, dot};
 use super::state::StripState;
 use crate::body::soft_step;
 use crate::error::Solved;
@@ -22,7 +22,7 @@ use crate::error::Solved;
 /// Share of the wall's moment up to which the first bend tried comes from the soft step.
 const SOFT_SHARE: f64 = 0.99;
 
-impl Section<'_> {
+impl StripSection<'_> {
     pub(super) fn is_passive(&self, strips: &[StripState]) -> bool {
         self.strips.iter().zip(strips).all(|(strip, state)| !self.is_open(strip, state))
     }
@@ -34,7 +34,7 @@ impl Section<'_> {
     }
 
     /// Slope and curvature of the potential U by κ, from wall, gas and outer loads.
-    pub(super) fn passive_balance(&self, kappa: [f64; 2]) -> Balance {
+    pub(super) fn passive_balance(&self, kappa: [f64; 2]) -> SectionBalance {
         let [y, z, axial] = self.outer;
         let size = kappa[0].hypot(kappa[1]).max(STRAIGHT);
         let n = kappa.map(|k| k / size);
@@ -56,7 +56,7 @@ impl Section<'_> {
             let gas = d_share * (gas[i] * n[j] + n[i] * gas[j] + along * across) + along * dd_share * nn;
             round * (bow * nn + rise / size * across) + gas + self.bending * same
         };
-        Balance {
+        SectionBalance {
             contraction: from_taut_m * h - self.offset_m * size,
             slope: [slope(0), slope(1)],
             second: [[second(0, 0), second(0, 1)], [second(1, 0), second(1, 1)]],

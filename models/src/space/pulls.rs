@@ -5,7 +5,7 @@ use crate::assembly::Strip;
 
 /// A strip at one coordinate, in a section bent by k = κ·e.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Fit {
+pub(super) struct StripFit {
     /// Contraction ε₀ of the axis that goes with it.
     pub contraction: f64,
     /// Force on ε₀ \[N\]: tension times cos β.
@@ -15,10 +15,10 @@ pub(super) struct Fit {
     pub tension: f64,
 }
 
-impl Fit {
+impl StripFit {
     /// `self + by·slope`.
-    pub(super) fn moved(self, by: f64, slope: Fit) -> Fit {
-        Fit {
+    pub(super) fn moved(self, by: f64, slope: StripFit) -> StripFit {
+        StripFit {
             contraction: self.contraction + by * slope.contraction,
             force: self.force + by * slope.force,
             from_axis_m: self.from_axis_m + by * slope.from_axis_m,
@@ -29,15 +29,15 @@ impl Fit {
 
 /// A strip at a coordinate, and the change of its fit per coordinate.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Tangent {
+pub(super) struct StripTangent {
     pub a: f64,
-    pub at: Fit,
-    pub slope: Fit,
+    pub at: StripFit,
+    pub slope: StripFit,
 }
 
 /// What decides the contraction ε₀ of the axis.
 #[derive(Clone, Copy)]
-pub(super) enum Held {
+pub(super) enum AxisContraction {
     At(f64),
     /// All strips pull with this force \[N\] together, at an ε₀ beyond the floor.
     By {
@@ -58,7 +58,7 @@ pub(super) struct Pulls {
 }
 
 impl Pulls {
-    pub(super) fn add(&mut self, strip: &Strip, fit: Fit, tangent: &Tangent) {
+    pub(super) fn add(&mut self, strip: &Strip, fit: StripFit, tangent: &StripTangent) {
         let stiffness = (-tangent.slope.force / tangent.slope.contraction).max(0.0);
         let arm = direction(strip.azimuth_rad).map(|e| e * fit.from_axis_m);
         self.force += fit.force;

@@ -2,7 +2,7 @@
 
 use super::frame::{Bend, direction};
 use super::lever::Outer;
-use super::pulls::Held;
+use super::pulls::AxisContraction;
 use super::state::StripState;
 use crate::actuators::Actuator;
 use crate::assembly::{Assembly, Segment, Strip};
@@ -22,7 +22,7 @@ pub(super) const STRAIGHT: f64 = 1e-12;
 pub(super) const FLAT: f64 = 1e-8;
 const HALVINGS: usize = 40;
 
-pub(crate) struct Section<'a> {
+pub(crate) struct StripSection<'a> {
     pub(super) sites: &'a [Site],
     pub(super) strips: &'a [Strip],
     pub(super) segment: Segment,
@@ -49,7 +49,7 @@ pub(super) enum Acting {
 }
 
 /// Slope and curvature of the energy by κ, with ε₀ at its best.
-pub(super) struct Balance {
+pub(super) struct SectionBalance {
     pub contraction: f64,
     pub slope: [f64; 2],
     pub second: [[f64; 2]; 2],
@@ -66,8 +66,8 @@ pub(super) fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 
-impl<'a> Section<'a> {
-    pub(crate) fn new(assembly: &'a Assembly, index: usize, p_body_pa: f64) -> Section<'a> {
+impl<'a> StripSection<'a> {
+    pub(crate) fn new(assembly: &'a Assembly, index: usize, p_body_pa: f64) -> StripSection<'a> {
         let (segment, strips) = (assembly.segments[index], assembly.around[index].as_slice());
         let body = &assembly.sites[segment.site];
         let round_m2 = PI * body.radius_m.powi(2);
@@ -80,7 +80,7 @@ impl<'a> Section<'a> {
             let about_axis = share[0] * round_m2 * site.radius_m - site.area_m2 * site.radius_m;
             moment_m3 = [moment_m3[0] + about_axis * e[0], moment_m3[1] + about_axis * e[1]];
         }
-        Section {
+        StripSection {
             sites: &assembly.sites,
             strips,
             segment,
@@ -95,8 +95,8 @@ impl<'a> Section<'a> {
         }
     }
 
-    pub(super) fn under(self, outer: Outer) -> Section<'a> {
-        Section { outer, ..self }
+    pub(super) fn under(self, outer: Outer) -> StripSection<'a> {
+        StripSection { outer, ..self }
     }
 
     pub(super) fn loads(&self, p_act_pa: f64, moment: f64) -> SiteLoads {
@@ -123,14 +123,15 @@ impl<'a> Section<'a> {
     }
 
     /// Slope of the energy by κ where ε₀ is at its best: R|κ|, or more where the strips pull harder than the gas.
-    pub(super) fn balance(&self, strips: &mut [StripState], kappa: [f64; 2]) -> Solved<Balance> {
+    pub(super) fn balance(&self, strips: &mut [StripState], kappa: [f64; 2]) -> Solved<SectionBalance> {
         if strips.iter().all(|state| !state.is_open) {
             return Ok(self.passive_balance(kappa));
         }
         let (size, [outer_y, outer_z, axial]) = (kappa[0].hypot(kappa[1]), self.outer);
         let thrust_n = self.p_body_pa * self.area_m2 - axial;
         let floor = self.radius_m * size;
-        let (contraction, pulls, is_slack) = match self.settled(strips, kappa, Held::By { thrust_n, floor }) {
+        let (contraction, pulls, is_slack) = match self.settled(strips, kappa, AxisContraction::By { thrust_n, floor })
+        {
             Some((contraction, pulls)) => (contraction, pulls, true),
             None => self.held(strips, kappa, thrust_n, floor)?,
         };
@@ -154,7 +155,7 @@ impl<'a> Section<'a> {
             own + taut + r * r * pulls.stiffness * n[i] * n[j] + held / size.max(STRAIGHT) * across
         };
         let own = |i: usize| if is_slack { -pulls.mixed[i] / stiffness } else { self.radius_m * n[i] };
-        Ok(Balance {
+        Ok(SectionBalance {
             contraction,
             slope,
             second: [[second(0, 0), second(0, 1)], [second(1, 0), second(1, 1)]],

@@ -1,7 +1,7 @@
 //! One section with three strips: its equilibrium is one, and strips found together are those found one by one.
 
 use super::frame::direction;
-use super::section::{Section, dot};
+use super::section::{StripSection, dot};
 use super::state::StripState;
 use super::tests::{full, random, robot};
 use crate::Model;
@@ -17,7 +17,7 @@ fn every_set_of_pressures_has_one_equilibrium() {
         [robot("epam", "", THREE), full("", THREE), robot("fpam", "", THREE), full("", THREE).with_bending(0.5)]
     {
         let model = Model::new(&scenario);
-        let section = Section::new(model.assembly(), 0, 2e3);
+        let section = StripSection::new(model.assembly(), 0, 2e3);
         for _ in 0..200 {
             let pressures: [f64; 3] = std::array::from_fn(|_| (100.0 * random() * random() - 2.0).max(0.0) * 1e3);
             let mut strips = pressures.map(|p_act_pa: f64| StripState { p_act_pa, ..StripState::default() });
@@ -46,7 +46,7 @@ fn strips_found_together_have_the_contraction_of_strips_found_one_by_one() {
         [robot("epam", "", THREE), full("", THREE), robot("fpam", "", THREE), robot("spam", "", THREE), grown]
     {
         let model = Model::new(&scenario);
-        let section = Section::new(model.assembly(), 0, 2e3);
+        let section = StripSection::new(model.assembly(), 0, 2e3);
         let thrust_n = 2e3 * section.area_m2;
         for _ in 0..300 {
             let pressures: [f64; 3] = std::array::from_fn(|_| 60e3 * (random() * random()).powi(2));

@@ -1,7 +1,7 @@
 //! What a robot in space is at equilibrium: its sections and strips.
 
-use super::frame::{Bend, Frame, Stretch};
-use super::lever::Loaded;
+use super::frame::{Bend, Frame, SpaceStretch};
+use super::lever::LoadedSections;
 use crate::assembly::{Assembly, Segment};
 
 /// Bend, contraction and strips of one section at equilibrium.
@@ -26,7 +26,7 @@ pub struct StripState {
     pub coordinate: f64,
     /// Tension along the strip, positive where it pulls \[N\].
     pub tension: f64,
-    /// Whether its actuators are open, as `Section::acting` noted it at this pressure.
+    /// Whether its actuators are open, as `StripSection::acting` noted it at this pressure.
     pub(super) is_open: bool,
 }
 
@@ -38,7 +38,7 @@ pub(crate) struct SpaceWork {
     /// Place and frame at each node.
     pub frames: Vec<Frame>,
     /// What only loads on the body need; empty without them.
-    pub loaded: Loaded,
+    pub loaded: LoadedSections,
 }
 
 impl SpaceWork {
@@ -48,7 +48,7 @@ impl SpaceWork {
             bends: vec![Bend::default(); count],
             strips: assembly.around.iter().map(|strips| vec![StripState::default(); strips.len()]).collect(),
             frames: vec![Frame::BASE; if count == 0 { 0 } else { count + 1 }],
-            loaded: Loaded::new(if assembly.node_terms.is_empty() { 0 } else { count }),
+            loaded: LoadedSections::new(if assembly.node_terms.is_empty() { 0 } else { count }),
         }
     }
 
@@ -58,11 +58,11 @@ impl SpaceWork {
     }
 }
 
-pub(crate) fn stretch(assembly: &Assembly, work: &SpaceWork, segment: usize) -> Stretch {
+pub(crate) fn stretch(assembly: &Assembly, work: &SpaceWork, segment: usize) -> SpaceStretch {
     let site = assembly.site(segment);
     let bend = work.bends[segment];
     let contraction = bend.contraction + (site.centre_line.from_taut_m - site.radius_m) * bend.size();
-    Stretch { from: work.frames[segment], bend, contraction }
+    SpaceStretch { from: work.frames[segment], bend, contraction }
 }
 
 pub(crate) fn place(assembly: &Assembly, work: &mut SpaceWork) {

@@ -1,8 +1,8 @@
 //! Strips of a section: their coordinates at a bend, where ε₀ is given or follows from their pull.
 
 use super::frame::direction;
-use super::pulls::{Fit, Held, Pulls, Tangent};
-use super::section::{Section, dot};
+use super::pulls::{AxisContraction, Pulls, StripFit, StripTangent};
+use super::section::{StripSection, dot};
 use super::state::StripState;
 use crate::actuators::Actuator;
 use crate::assembly::Strip;
@@ -22,8 +22,8 @@ const FLOOR: f64 = 1e-6;
 /// Contraction tried first beyond a taut wall.
 const FIRST_CONTRACTION: f64 = 1e-2;
 
-impl Section<'_> {
-    pub(super) fn fit(&self, strip: &Strip, actuator: &Actuator, p_act_pa: f64, a: f64, k: f64) -> Fit {
+impl StripSection<'_> {
+    pub(super) fn fit(&self, strip: &Strip, actuator: &Actuator, p_act_pa: f64, a: f64, k: f64) -> StripFit {
         let site = &self.sites[strip.site];
         let (stroke, link) = ((actuator.stroke)(&site.shape, a), &site.linkage);
         let arm = link.arm_m + link.arm_growth * stroke.lift;
@@ -36,7 +36,7 @@ impl Section<'_> {
         let tension = -slope / (link.stroke_fraction * stroke.d_contraction - cos2 * k * d_arm);
         let from_axis_m = arm - site.radius_m;
         let own = link.stroke_fraction * stroke.contraction - link.compliance_per_n * tension;
-        Fit { contraction: own / cos2 - from_axis_m * k, force: tension * strip.cos_slant, from_axis_m, tension }
+        StripFit { contraction: own / cos2 - from_axis_m * k, force: tension * strip.cos_slant, from_axis_m, tension }
     }
 
     /// Coordinate of a strip at a contraction of the axis and a bend: the end of its range where it goes no further.
@@ -60,19 +60,24 @@ impl Section<'_> {
         }
     }
 
-    fn tangent(&self, strip: &Strip, actuator: &Actuator, p_act_pa: f64, a: f64, k: f64) -> Tangent {
+    fn tangent(&self, strip: &Strip, actuator: &Actuator, p_act_pa: f64, a: f64, k: f64) -> StripTangent {
         let (at, step) = (|a: f64| self.fit(strip, actuator, p_act_pa, a, k), STEP * a.abs().max(STEP));
         let (up, down) = (at(a + step), at(a - step));
-        let slope = Fit::default().moved(0.5 / step, up).moved(-0.5 / step, down);
-        Tangent { a, at: at(a), slope }
+        let slope = StripFit::default().moved(0.5 / step, up).moved(-0.5 / step, down);
+        StripTangent { a, at: at(a), slope }
     }
 
     /// Pulls of all open strips, their coordinates found together by Newton's steps from those in `strips`, with ε₀.
     ///
     /// None where that does not settle: at the end of a range, beyond [`MOST_TOGETHER`] strips, or where the pull does not fall with the
     /// contraction.
-    pub(super) fn settled(&self, strips: &mut [StripState], kappa: [f64; 2], held: Held) -> Option<(f64, Pulls)> {
-        let mut tangents = [Tangent::default(); MOST_TOGETHER];
+    pub(super) fn settled(
+        &self,
+        strips: &mut [StripState],
+        kappa: [f64; 2],
+        held: AxisContraction,
+    ) -> Option<(f64, Pulls)> {
+        let mut tangents = [StripTangent::default(); MOST_TOGETHER];
         for (i, _, actuator) in self.opened(strips) {
             let ((low, high), a) = (actuator.range, strips[i].coordinate);
             tangents.get_mut(i)?.a = if a > low && a < high { a } else { 0.5 * (low + high) };
@@ -88,10 +93,12 @@ impl Section<'_> {
                 tangents[i] = tangent;
             }
             let contraction = match held {
-                Held::At(contraction) => contraction,
-                Held::By { thrust_n, floor } => Some((thrust_n - force) / rise).filter(|e| rise < 0.0 && *e > floor)?,
+                AxisContraction::At(contraction) => contraction,
+                AxisContraction::By { thrust_n, floor } => {
+                    Some((thrust_n - force) / rise).filter(|e| rise < 0.0 && *e > floor)?
+                }
             };
-            let step = |tangent: &Tangent| (contraction - tangent.at.contraction) / tangent.slope.contraction;
+            let step = |tangent: &StripTangent| (contraction - tangent.at.contraction) / tangent.slope.contraction;
             let is_short = |(i, _, actuator): (usize, _, &Actuator)| {
                 let (a, (low, high)) = (tangents[i].a, actuator.range);
                 step(&tangents[i]).abs() <= LAST_STEP * (a.abs() + FLOOR * (high - low))
@@ -117,7 +124,7 @@ impl Section<'_> {
     }
 
     pub(super) fn pulls(&self, strips: &mut [StripState], kappa: [f64; 2], contraction: f64) -> Pulls {
-        if let Some((_, pulls)) = self.settled(strips, kappa, Held::At(contraction)) {
+        if let Some((_, pulls)) = self.settled(strips, kappa, AxisContraction::At(contraction)) {
             return pulls;
         }
         let mut sum = Pulls::default();

@@ -1,7 +1,7 @@
 //! Laws of robots in space: symmetries, limits and derivatives of the energy.
 
 use super::frame::direction;
-use super::section::Section;
+use super::section::StripSection;
 use super::*;
 use crate::{Loads, Model, Prediction, Scenario};
 use std::f64::consts::TAU;
@@ -74,7 +74,7 @@ fn one_strip_anywhere_is_the_planar_robot_turned() {
 fn the_convex_minimum_of_one_strip_is_the_planar_balance() {
     for (scenario, p) in [(full("azimuth_deg = 90", ""), 30e3), (robot("epam", "azimuth_deg = 90", ""), 8e3)] {
         let model = Model::new(&scenario);
-        let section = Section::new(model.assembly(), 0, 2e3);
+        let section = StripSection::new(model.assembly(), 0, 2e3);
         let mut state = [StripState { p_act_pa: p, ..StripState::default() }];
         let alone = section.solve(&mut state).unwrap();
         let found = section.minimum(&mut state, [0.3, 1.5]).unwrap();
@@ -155,7 +155,7 @@ fn forces_are_the_slopes_of_the_energy() {
     for scenario in [robot("epam", "", third), full("", third), robot("fpam", "", third), grown] {
         let scenario = scenario.with_bending(0.7);
         let model = Model::new(&scenario);
-        let section = Section::new(model.assembly(), 0, 2e3);
+        let section = StripSection::new(model.assembly(), 0, 2e3);
         let mut strips = [30e3, 20e3, 25e3].map(|p_act_pa| StripState { p_act_pa, ..StripState::default() });
         for q in [[1.0, 0.4, 0.08], [-0.6, 1.2, 0.07], [0.2, 0.1, 0.1]] {
             let forces = section.forces(&mut strips, [q[0], q[1]], q[2]);
@@ -182,7 +182,7 @@ fn at_equilibrium_no_bend_and_no_contraction_has_less_energy() {
     for pressures in [[30e3, 20e3, 25e3], [30e3, 3e3, 0.0], [8e3, 30e3, 5e3]] {
         let scenario = full("", third).with_bending(0.3);
         let model = Model::new(&scenario);
-        let section = Section::new(model.assembly(), 0, 2e3);
+        let section = StripSection::new(model.assembly(), 0, 2e3);
         let mut strips = pressures.map(|p_act_pa| StripState { p_act_pa, ..StripState::default() });
         let at = section.solve(&mut strips).unwrap();
         let least = section.energy(&mut strips, at.kappa, at.contraction);
@@ -322,7 +322,7 @@ fn a_bare_helix_is_solved() {
     }
 }
 
-impl Section<'_> {
+impl StripSection<'_> {
     /// Energy per metre at any bend and contraction, strips settled \[J/m\].
     pub(crate) fn energy(&self, strips: &mut [StripState], kappa: [f64; 2], contraction: f64) -> f64 {
         self.acting(strips);

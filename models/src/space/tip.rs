@@ -1,6 +1,6 @@
 //! How the tip of a robot under loads gives way to a force: one Newton step of the loads for each direction.
 
-use super::lever::{Beyond, Lever, Matrix, apply, dot, outer};
+use super::lever::{Lever, Matrix, OuterForces, apply, dot, outer};
 use super::loaded::newton_step;
 use super::state::{SpaceWork, stretch};
 use crate::assembly::Assembly;
@@ -13,7 +13,7 @@ pub(crate) fn tip_compliance(assembly: &Assembly, work: &mut SpaceWork) -> Matri
         let (end, mut force) = (work.frames[i + 1].at, [0.0; 3]);
         force[axis] = 1.0;
         let tensor = outer(force, std::array::from_fn(|k| tip[k] - end[k]));
-        Lever::new(&stretch(assembly, work, i), assembly.segments[i].length_m).work(&Beyond { force, tensor })
+        Lever::new(&stretch(assembly, work, i), assembly.segments[i].length_m).work(&OuterForces { force, tensor })
     };
     let mut found = [[0.0; 3]; 3];
     for column in 0..3 {

@@ -2,7 +2,7 @@
 
 use crate::support::*;
 use models::Fabric;
-use models::fabrics::{Kind, Laminate, NeoHookean, Orthotropic, Ply, Recipe, by_name};
+use models::fabrics::{InlinedFabric, Laminate, NeoHookean, Orthotropic, Ply, Recipe, by_name};
 use std::sync::Arc;
 
 fn ply(fabric: impl Fabric + 'static, angle_deg: f64) -> Ply {
@@ -36,7 +36,7 @@ fn rubber_and_linear_plies_add_up_to_one_formula_and_other_laws_do_not() {
     let film = NeoHookean::new(50.3e6, 1e-4);
     let inner = Laminate::new(vec![ply(cloth(5e-5), 20.0), ply(film, 0.0)]).unwrap();
     let outer = Laminate::new(vec![ply(inner, 30.0), ply(film, 45.0), ply(cloth(2e-5), -70.0)]).unwrap();
-    let Kind::Mixed(mixed) = outer.kind() else { panic!("{:?}", outer.kind()) };
+    let InlinedFabric::Mixed(mixed) = outer.kind() else { panic!("{:?}", outer.kind()) };
     let mut random = Random::new(5);
     for _ in 0..100 {
         let e = random.strain(0.1);
@@ -47,10 +47,10 @@ fn rubber_and_linear_plies_add_up_to_one_formula_and_other_laws_do_not() {
     }
     assert!((mixed.rubber.thickness_m - 2e-4).abs() < 1e-18);
     let films = Laminate::new(vec![ply(film, 0.0), ply(film, 30.0)]).unwrap();
-    assert!(matches!(films.kind(), Kind::NeoHookean(both) if (both.thickness_m - 2e-4).abs() < 1e-18));
+    assert!(matches!(films.kind(), InlinedFabric::NeoHookean(both) if (both.thickness_m - 2e-4).abs() < 1e-18));
     let woven = (by_name("woven").unwrap().make)(&(by_name("woven").unwrap().example)()).unwrap();
     let with_curves = Laminate::new(vec![ply(film, 0.0), Ply { fabric: woven, angle_rad: 0.0 }]).unwrap();
-    assert!(matches!(with_curves.kind(), Kind::Other));
+    assert!(matches!(with_curves.kind(), InlinedFabric::Other));
 }
 
 #[test]

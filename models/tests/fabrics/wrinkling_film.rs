@@ -2,7 +2,7 @@
 
 use crate::support::*;
 use models::Fabric;
-use models::fabrics::{Kind, Laminate, NeoHookean, Ply, WrinklingFilm, wrinkling_load_n_per_m};
+use models::fabrics::{InlinedFabric, Laminate, NeoHookean, Ply, WrinklingFilm, wrinkling_load_n_per_m};
 use std::sync::Arc;
 
 const FILM: NeoHookean = NeoHookean::new(50.3e6, 2e-4);
@@ -151,10 +151,10 @@ fn two_films_that_wrinkle_at_one_strain_are_one_film() {
         Laminate::new(loads.map(ply).to_vec()).unwrap()
     };
     let same = two([5.0; 2]);
-    let Kind::WrinklingFilm(film) = same.kind() else { panic!("{:?}", same.kind()) };
+    let InlinedFabric::WrinklingFilm(film) = same.kind() else { panic!("{:?}", same.kind()) };
     let e = [0.02, -0.03, 0.01];
     assert!(apart(film.tension(e, &FRESH), same.tension(e, &FRESH), 0.0) < 1e-12);
-    assert!(matches!(two([5.0, 10.0]).kind(), Kind::Other));
+    assert!(matches!(two([5.0, 10.0]).kind(), InlinedFabric::Other));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::support::*;
 use models::effects::Parameter;
-use models::error::Place;
+use models::error::FailurePlace;
 use models::{Loads, Model, Scenario, Unsolved};
 
 const ACT: [f64; 12] = [0.0, 1.0, 10.0, 100.0, 1e3, 3e3, 1e4, 3e4, 6e4, 1e5, 2e5, 5e5];
@@ -57,7 +57,7 @@ pub(crate) fn sweep(name: &str, scenario: &Scenario) -> usize {
 fn says_why(error: &Unsolved, place: &str) {
     let text = error.to_string();
     match error {
-        Unsolved::NoEquilibrium { place: Place { s_mm, p_body_kpa, .. }, .. } => {
+        Unsolved::NoEquilibrium { place: FailurePlace { s_mm, p_body_kpa, .. }, .. } => {
             assert!(text.contains("s = ") && *s_mm >= 0.0 && *p_body_kpa > 0.0, "{place}: {text}");
         }
         Unsolved::NotConverged { residual, iterations, .. } => {

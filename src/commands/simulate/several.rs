@@ -5,15 +5,15 @@ use crate::commands::shards::shared;
 use crate::prelude::*;
 use compare::study::uncertain::{Intervals, Member, Uncertain, Varied, Weight};
 use fem::session::{
-    AS_IT_IS, Cube, Heights, Job, RunRow, RunTable, SeedGroup, Settings, Source, Variation, simulate_all,
+    AS_IT_IS, Cube, Heights, RunJob, RunRow, RunSettings, RunTable, SeedGroup, Source, Variation, simulate_all,
 };
 use ibr::pages::{Files, marker_intervals, mesh_plot, what_to_measure};
 use std::collections::BTreeMap;
 
-fn jobs(base: &Source, variations: &[Variation]) -> Result<Vec<Job>> {
+fn jobs(base: &Source, variations: &[Variation]) -> Result<Vec<RunJob>> {
     let job = |v: &Variation| {
         let (what, folder) = (v.label.clone(), Some(v.label.clone()));
-        Ok(Job { source: base.with(&v.changes)?, what, folder })
+        Ok(RunJob { source: base.with(&v.changes)?, what, folder })
     };
     variations.iter().map(job).collect()
 }
@@ -21,7 +21,7 @@ fn jobs(base: &Source, variations: &[Variation]) -> Result<Vec<Job>> {
 pub(super) fn table(
     base: &Source,
     variations: &[Variation],
-    settings: &Settings,
+    settings: &RunSettings,
     shards: &ShardArgs,
     context: &mut Context,
 ) -> Result<Outcome> {
@@ -46,10 +46,10 @@ pub(super) fn table(
 pub(super) fn uncertain(
     cube: &Cube,
     args: &SimulateArgs,
-    settings: Settings,
+    settings: RunSettings,
     context: &mut Context,
 ) -> Result<Outcome> {
-    let settings = Settings { frames: false, ..settings };
+    let settings = RunSettings { frames: false, ..settings };
     let jobs = jobs(&cube.base, &cube.robots)?;
     if let Some(told) = shared(&args.shards, &jobs, &settings, context)? {
         return Ok(told);
@@ -82,7 +82,7 @@ pub(super) fn uncertain(
 
 fn write(
     outcome: &mut Outcome,
-    settings: &Settings,
+    settings: &RunSettings,
     files: impl Iterator<Item = (&'static str, &'static str, Vec<u8>)>,
     context: &mut Context,
 ) -> Result<()> {
@@ -104,7 +104,7 @@ fn table_text(all: &RunTable) -> String {
         own.map(|own| 100.0 * (h.tip_mm / own.tip_mm - 1.0))
     };
     let rows = all.rows.iter().flat_map(|run| run.heights.iter().enumerate().map(move |(k, h)| (run, k, h)));
-    let text = Table::of(rows)
+    let text = TextTable::of(rows)
         .words("run", |(run, ..)| &run.variation.label)
         .right("actuator kPa", |(.., h)| h.actuator_kpa.to_string())
         .number("outermost marker mm", 1, |(.., h)| h.marker_mm)
@@ -114,7 +114,7 @@ fn table_text(all: &RunTable) -> String {
         .number("run CPU s", 1, |(run, ..)| run.cpu_s)
         .text();
     let groups = all.groups();
-    let several = Table::of(groups.iter().filter(|g| g.runs > 1))
+    let several = TextTable::of(groups.iter().filter(|g| g.runs > 1))
         .words("group", |g| if g.group.is_empty() { "all" } else { &g.group })
         .right("actuator kPa", |g| g.actuator_kpa.to_string())
         .right("runs", |g| g.runs.to_string())
@@ -131,7 +131,7 @@ fn uncertain_text(all: &Uncertain, measured: &[(f64, [f64; 2])]) -> String {
         all.members.len(),
         if stopped.is_empty() { String::new() } else { format!(", {} of which stopped", stopped.len()) }
     );
-    let mut heights = Table::of(all.pressures_kpa()).right("actuator kPa", |kpa| kpa.to_string());
+    let mut heights = TextTable::of(all.pressures_kpa()).right("actuator kPa", |kpa| kpa.to_string());
     for (m, s) in all.stations_mm.iter().enumerate() {
         heights = heights.right(format!("s = {s}"), |kpa| {
             let quantiles = all.quantiles_mm(*kpa, m, 1);
@@ -148,7 +148,7 @@ fn uncertain_text(all: &Uncertain, measured: &[(f64, [f64; 2])]) -> String {
     if let Some((weights, rest)) = all.weights(top) {
         let number = |w: &Weight| &all.numbers[w.number];
         out += &format!("\nWhat to measure first: outermost marker at {top} kPa\n");
-        out += &Table::of(&weights)
+        out += &TextTable::of(&weights)
             .words("assumed", |w| &number(w).name)
             .words("interval", |w| number(w).interval.map(three_digits).join(" to "))
             .signed("10 % to 90 % of it: mm", 1, |w| w.swing_mm)
@@ -175,7 +175,7 @@ fn calibrated(all: &Uncertain, measured: &[(f64, [f64; 2])], weights: &[Weight])
     let title = format!(
         "Calibration, no prediction: what one number would have to be for the measured {y:.1} mm at {kpa} kPa, by a straight law"
     );
-    let table = Table::of(weights).words("assumed", |w| &all.numbers[w.number].name).words("target", place);
+    let table = TextTable::of(weights).words("assumed", |w| &all.numbers[w.number].name).words("target", place);
     format!("\n{title}\n{}", table.text())
 }
 

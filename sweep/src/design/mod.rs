@@ -26,6 +26,6 @@ mod tests;
 mod wish;
 
 pub use misses::{Miss, misses_of_reading};
-pub use rounds::{Checked, End, Round, Rounds};
+pub use rounds::{Checked, Round, Rounds, StopReason};
 pub use search::{Design, Held, Spread, design};
-pub use wish::{Cost, Place, Turn, Wanted, Wish};
+pub use wish::{Cost, Wanted, WantedPlace, WantedTurn, Wish};

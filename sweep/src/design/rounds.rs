@@ -65,7 +65,7 @@ impl Round {
 /// Why no further design is checked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum End {
+pub enum StopReason {
     /// The last one has the wish by finite elements.
     Reached,
     /// The allowed number of corrections is spent.
@@ -143,13 +143,13 @@ impl Rounds {
     }
 
     /// Why the rounds ended; `None` before the end.
-    pub fn end(&self, wish: &Wish) -> Option<End> {
+    pub fn end(&self, wish: &Wish) -> Option<StopReason> {
         let last = self.all.last()?;
         match &last.checked {
-            Err(_) => Some(End::Unchecked),
-            Ok(_) if last.reached(wish) => Some(End::Reached),
-            Ok(_) if self.all.len() > self.corrections => Some(End::Spent),
-            Ok(_) => self.came_back.then_some(End::Same),
+            Err(_) => Some(StopReason::Unchecked),
+            Ok(_) if last.reached(wish) => Some(StopReason::Reached),
+            Ok(_) if self.all.len() > self.corrections => Some(StopReason::Spent),
+            Ok(_) => self.came_back.then_some(StopReason::Same),
         }
     }
 }

@@ -93,7 +93,7 @@ impl Design {
     }
 }
 
-struct Tried {
+struct PosedDesign {
     scenario: Scenario,
     model: Model,
     loads: Loads,
@@ -101,7 +101,7 @@ struct Tried {
 }
 
 impl Wish {
-    fn tried(&self, Changes { values, pressures_kpa }: &Changes) -> Option<Tried> {
+    fn tried(&self, Changes { values, pressures_kpa }: &Changes) -> Option<PosedDesign> {
         let scenario = self.base.scenario_with(values).ok()?;
         let own = || scenario.pressures_pa.iter().copied().reduce(f64::max).map(|pa| [pa; CHANNELS]);
         let actuator_pa = pressures_kpa.map(|all| all.map(|kpa| 1e3 * kpa)).or_else(own).unwrap_or_default();
@@ -109,7 +109,7 @@ impl Wish {
         let model = Model::new(&scenario);
         let mut pose = model.prediction();
         model.predict_held(&loads, &mut pose).ok()?;
-        Some(Tried { scenario, model, loads, pose })
+        Some(PosedDesign { scenario, model, loads, pose })
     }
 
     /// The objective; shares beyond the ranges are put back and cost.
@@ -148,8 +148,8 @@ impl Wish {
         self.free.iter().zip(from.iter().zip(to)).map(of).sum()
     }
 
-    fn misses(&self, tried: &Tried) -> Vec<Miss> {
-        let Tried { scenario: Scenario { length_m, .. }, model, pose, .. } = tried;
+    fn misses(&self, tried: &PosedDesign) -> Vec<Miss> {
+        let PosedDesign { scenario: Scenario { length_m, .. }, model, pose, .. } = tried;
         let line = match self.wanted.places.is_empty() {
             true => Vec::new(),
             false => model.centre_line(pose, LINE),
@@ -186,7 +186,7 @@ impl Wish {
     }
 }
 
-struct Problem<'a> {
+struct SearchProblem<'a> {
     wish: &'a Wish,
     /// All shares; the search replaces the shares of ranges.
     fixed: Vec<f64>,
@@ -195,7 +195,7 @@ struct Problem<'a> {
     near: Option<&'a [f64]>,
 }
 
-impl Problem<'_> {
+impl SearchProblem<'_> {
     fn shares(&self, of_ranges: &[f64]) -> Vec<f64> {
         let mut all = self.fixed.clone();
         self.ranges.iter().zip(of_ranges).for_each(|(k, share)| all[*k] = *share);
@@ -220,7 +220,7 @@ impl Problem<'_> {
             };
             let simplex = std::iter::once(at.clone()).chain((0..at.len()).map(corner)).collect();
             let Ok(solver) = NelderMead::new(simplex).with_sd_tolerance(1e-9) else { break };
-            let of = Problem { fixed: self.fixed.clone(), ..self };
+            let of = SearchProblem { fixed: self.fixed.clone(), ..self };
             let made = Executor::new(of, solver).configure(|state| state.max_iters(steps)).run();
             if let Some((found, cost)) = made.ok().and_then(|made| Some((made.state.best_param?, made.state.best_cost)))
                 && cost < best
@@ -233,7 +233,7 @@ impl Problem<'_> {
     }
 }
 
-impl CostFunction for Problem<'_> {
+impl CostFunction for SearchProblem<'_> {
     type Param = Vec<f64>;
     type Output = f64;
 
@@ -258,7 +258,7 @@ pub(super) fn design_near(wish: &Wish, near: Option<&[f64]>, progress: Progress)
     let points = Points::new(Method::Sobol, starts, wish.free.len(), 1);
     let from: Vec<&[f64]> = (0..starts).map(|k| points.of(k)).chain(near).collect();
     let starts = from.len();
-    let one = |k: usize| Ok(Problem { wish, fixed: from[k].to_vec(), ranges: &ranges, near }.solved());
+    let one = |k: usize| Ok(SearchProblem { wish, fixed: from[k].to_vec(), ranges: &ranges, near }.solved());
     let all: Vec<(f64, Vec<f64>)> = beside(starts, 0, "searching designs", progress, &one)?;
     let (best, shares) = all.iter().min_by(|a, b| a.0.total_cmp(&b.0)).cloned().unwrap_or((NONE, Vec::new()));
     if best >= NONE {

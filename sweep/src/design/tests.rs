@@ -199,7 +199,7 @@ fn one_correction_is_exact_for_a_constant_offset_of_every_part_that_is_read() {
         let rounds = checked(&wish, 3, |_| lacks(1.0));
         let [first, second] = &rounds.all[..] else { panic!("{} rounds", rounds.all.len()) };
         assert!(first.corrected.is_none() && !first.reached(&wish) && second.reached(&wish));
-        assert_eq!((rounds.best(), rounds.end(&wish), rounds.reached(&wish)), (1, Some(End::Reached), true));
+        assert_eq!((rounds.best(), rounds.end(&wish), rounds.reached(&wish)), (1, Some(StopReason::Reached), true));
         for miss in second.corrected.as_ref().unwrap() {
             // What is not read is not corrected.
             let by_model = second.design.misses.iter().find(|other| other.what == miss.what).unwrap();
@@ -242,7 +242,7 @@ fn without_a_correction_the_design_is_the_same_to_the_bit() {
         assert_eq!((&only.design.file.text, &only.design.misses), (&plain.file.text, &plain.misses));
     }
     assert_eq!((&of_zero.file.text, &of_zero.misses), (&plain.file.text, &plain.misses));
-    assert_eq!((none_allowed.end(&wish), none_needed.end(&wish)), (Some(End::Spent), Some(End::Reached)));
+    assert_eq!((none_allowed.end(&wish), none_needed.end(&wish)), (Some(StopReason::Spent), Some(StopReason::Reached)));
     // Without corrections the model decides, as the check is only told.
     assert!(none_allowed.reached(&wish) && !none_allowed.all[0].reached(&wish));
 }
@@ -267,11 +267,11 @@ fn the_end_is_told() {
     let wish = wish(&text).unwrap();
     // More bend than the range has: the end of the range again.
     let rounds = checked(&wish, 3, |_| [0.01, -0.05]);
-    assert_eq!((rounds.end(&wish), rounds.best()), (Some(End::Same), 0));
+    assert_eq!((rounds.end(&wish), rounds.best()), (Some(StopReason::Same), 0));
     let mut rounds = Rounds::new(3);
     assert_eq!(rounds.end(&wish), None);
     rounds.search(&wish, &mut |_, _| ControlFlow::Continue(())).unwrap();
     rounds.answer(Err("the run was stopped".into()));
     assert!(rounds.search(&wish, &mut |_, _| ControlFlow::Continue(())).unwrap().is_none());
-    assert_eq!((rounds.end(&wish), rounds.best(), rounds.all.len()), (Some(End::Unchecked), 0, 1));
+    assert_eq!((rounds.end(&wish), rounds.best(), rounds.all.len()), (Some(StopReason::Unchecked), 0, 1));
 }

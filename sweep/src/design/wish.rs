@@ -19,14 +19,14 @@ pub struct Wanted {
     /// Target angle of the tip \[rad\]; `None`: any.
     pub tip_angle_rad: Option<f64>,
     /// Places that stations of the body pass.
-    pub places: Vec<Place>,
+    pub places: Vec<WantedPlace>,
     /// By how much stretches of the body turn.
-    pub turns: Vec<Turn>,
+    pub turns: Vec<WantedTurn>,
 }
 
 /// A station and its target position.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place {
+pub struct WantedPlace {
     /// Station along the undeformed body \[m\].
     pub s_m: f64,
     /// Target position x, y of the station \[m\].
@@ -35,7 +35,7 @@ pub struct Place {
 
 /// A stretch and by how much it turns.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Turn {
+pub struct WantedTurn {
     /// Its ends along the undeformed body \[m\].
     pub between_m: [f64; 2],
     /// Angle from one to the other \[rad\].
@@ -82,9 +82,9 @@ pub struct Wish {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Raw {
+struct RawDesign {
     #[serde(rename = "kind")]
-    _kind: Option<Kind>,
+    _kind: Option<DesignKind>,
     scenario: Spanned<String>,
     wish: Spanned<RawWish>,
     #[serde(default)]
@@ -96,7 +96,7 @@ struct Raw {
 
 #[derive(Deserialize)]
 #[serde(rename_all = "lowercase")]
-enum Kind {
+enum DesignKind {
     Design,
 }
 
@@ -128,7 +128,7 @@ struct RawTurn {
     angle_deg: f64,
 }
 
-const FORM: Form<Raw, Wish> =
+const FORM: Form<RawDesign, Wish> =
     Form { what: "wish", page: "docs/design.md", scenario: |raw| &raw.scenario, of: Wish::of };
 
 impl Wish {
@@ -160,7 +160,7 @@ impl Wish {
         Ok(self)
     }
 
-    fn of(raw: Raw, base: ScenarioFile, folder: &Path) -> Result<Wish, Wrong> {
+    fn of(raw: RawDesign, base: ScenarioFile, folder: &Path) -> Result<Wish, Wrong> {
         let whole = base.length_m;
         let wanted = wanted(raw.wish.get_ref(), whole)
             .map_err(|(span, message, help)| (span.or(Some(raw.wish.span())), message, help))?;
@@ -242,7 +242,7 @@ fn wanted(raw: &RawWish, length_m: f64) -> Result<Wanted, Wrong> {
     let places = raw.places.iter().map(|place| {
         let RawPlace { s_mm, at_mm: Exactly(at_mm) } = *place.get_ref();
         match on_body(s_mm) && near(at_mm) {
-            true => Ok(Place { s_m: 1e-3 * s_mm, at_m: at_mm.map(|v| 1e-3 * v) }),
+            true => Ok(WantedPlace { s_m: 1e-3 * s_mm, at_m: at_mm.map(|v| 1e-3 * v) }),
             false => {
                 Err((Some(place.span()), format!("s_mm = {s_mm} is not on the body, or {far}"), "write millimetres"))
             }
@@ -251,7 +251,7 @@ fn wanted(raw: &RawWish, length_m: f64) -> Result<Wanted, Wrong> {
     let turns = raw.turns.iter().map(|turn| {
         let RawTurn { from_mm, to_mm, angle_deg } = *turn.get_ref();
         match on_body(from_mm) && on_body(to_mm) && from_mm < to_mm && angle_deg.abs() <= 720.0 {
-            true => Ok(Turn { between_m: [1e-3 * from_mm, 1e-3 * to_mm], angle_rad: angle_deg.to_radians() }),
+            true => Ok(WantedTurn { between_m: [1e-3 * from_mm, 1e-3 * to_mm], angle_rad: angle_deg.to_radians() }),
             false => {
                 let help = "write from_mm below to_mm, both on the body, and degrees";
                 Err((Some(turn.span()), "a turn of a stretch that is none".to_string(), help))

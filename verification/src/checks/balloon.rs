@@ -34,11 +34,11 @@ fn run() -> Found {
     Ok(lines.into())
 }
 
-fn compared(how: &str, [radius, thickness, volume]: &[f64; 3], exact: &Elastic) -> Vec<Line> {
+fn compared(how: &str, [radius, thickness, volume]: &[f64; 3], exact: &Elastic) -> Vec<CheckedNumber> {
     vec![
-        Line::value(format!("radius of the rim over R0, {how}"), *radius, exact.radius, 0.02),
-        Line::value(format!("thickness over R0, {how}"), *thickness, exact.thickness, 0.02),
-        Line::value(format!("volume over R0³, {how}"), *volume, exact.volume, 0.02),
+        CheckedNumber::value(format!("radius of the rim over R0, {how}"), *radius, exact.radius, 0.02),
+        CheckedNumber::value(format!("thickness over R0, {how}"), *thickness, exact.thickness, 0.02),
+        CheckedNumber::value(format!("volume over R0³, {how}"), *volume, exact.volume, 0.02),
     ]
 }
 

@@ -68,8 +68,8 @@ fn run() -> Found {
     for (row, [angle, moment_pa]) in found.iter().enumerate().skip(1) {
         let exact = table.value(*angle);
         let name = format!("shear moment at {angle:.2} rad [MPa]");
-        outcome.lines.push(Line::value(&name, moment_pa * 1e-6, exact * 1e-6, 0.01));
-        outcome.lines.push(Line::value("shear angle in the middle [rad]", seen[row], *angle, 0.01));
+        outcome.lines.push(CheckedNumber::value(&name, moment_pa * 1e-6, exact * 1e-6, 0.01));
+        outcome.lines.push(CheckedNumber::value("shear angle in the middle [rad]", seen[row], *angle, 0.01));
     }
     outcome.lines.push(balance(residual));
     let mpa = |row: &[f64; 2]| [row[0], 1e-6 * row[1]];

@@ -31,7 +31,7 @@ fn run() -> Found {
         let found = contractions(fabric, &PRESSURES_PA)?;
         for (pressure, found) in PRESSURES_PA.iter().zip(&found) {
             let name = format!("contraction, ν12 = {nu12}, {} kPa", 1e-3 * pressure);
-            lines.push(Line::value(&name, *found, exact(&fabric, *pressure), 0.02));
+            lines.push(CheckedNumber::value(&name, *found, exact(&fabric, *pressure), 0.02));
         }
         curves.extend(pair(nu12, &fabric, &found));
     }
@@ -39,7 +39,7 @@ fn run() -> Found {
     let net = Orthotropic::new(even, even, 0.0, 1e4, THICKNESS_M);
     let found = contractions(net, &[pressure])?;
     let expected = netting(pressure * FLAT_WIDTH_M / PI / (even * THICKNESS_M));
-    lines.push(Line::value("contraction of a net (G = 0.01 MPa), 10 kPa", found[0], expected, 0.02));
+    lines.push(CheckedNumber::value("contraction of a net (G = 0.01 MPa), 10 kPa", found[0], expected, 0.02));
     Ok(CheckOutcome::drawn(lines, Figure::new("Bias-cut tube, free", ["pressure [kPa]", "contraction"], curves)))
 }
 

@@ -61,9 +61,9 @@ fn rigid() -> Found {
     let apart = |x: &[V3]| size(sub(x[0], x[x.len() - 1]));
     let t = run.time_s();
     Ok(vec![
-        Line::value("fall of the centre [mm]", -1e3 * middle[2], 1e3 * 0.5 * 9.81 * t * t, 1e-6),
-        Line::at_most("change of angular momentum, share", size(change) / size(start), 1e-4),
-        Line::at_most("change of the diagonal, share", (apart(&x) / apart(&mesh.points) - 1.0).abs(), 1e-12),
+        CheckedNumber::value("fall of the centre [mm]", -1e3 * middle[2], 1e3 * 0.5 * 9.81 * t * t, 1e-6),
+        CheckedNumber::at_most("change of angular momentum, share", size(change) / size(start), 1e-4),
+        CheckedNumber::at_most("change of the diagonal, share", (apart(&x) / apart(&mesh.points) - 1.0).abs(), 1e-12),
         balance(run.ledger().residual_share()),
     ]
     .into())
@@ -93,16 +93,21 @@ fn ties() -> Found {
         advance(&mut run, 0.015)?;
         let force = pull_n(&run, right);
         let exact = 1e8 * 0.02 * 2e-4 * PULL_M / 0.1;
-        lines.push(Line::value(format!("{name}: force [N]"), force, exact, 0.01));
+        lines.push(CheckedNumber::value(format!("{name}: force [N]"), force, exact, 0.01));
         let row = |name: &str| energy_j(&run, name);
         let kept = row("supports") - row("mass damping") - row("viscosity");
         let stored = 0.5 * exact * PULL_M;
         let work = format!("{name}: work of the support less damping [µJ]");
-        lines.push(Line::value(work, 1e6 * kept, 1e6 * stored, 0.01));
-        lines.push(Line::value(format!("{name}: energy stored [µJ]"), 1e6 * row("membrane"), 1e6 * stored, 0.01));
+        lines.push(CheckedNumber::value(work, 1e6 * kept, 1e6 * stored, 0.01));
+        lines.push(CheckedNumber::value(
+            format!("{name}: energy stored [µJ]"),
+            1e6 * row("membrane"),
+            1e6 * stored,
+            0.01,
+        ));
         found.push(force);
     }
-    lines.push(Line::value("force of the tied strip against the whole one [N]", found[1], found[0], 1e-3));
+    lines.push(CheckedNumber::value("force of the tied strip against the whole one [N]", found[1], found[0], 1e-3));
     Ok(lines.into())
 }
 
@@ -139,10 +144,10 @@ fn scaled() -> Found {
     problem.settings.mass_scaling = MassScaling::Fixed(9.0);
     let fixed = Simulation::new(&problem)?;
     Ok(vec![
-        Line::value("step for the asked one", target.dt_s() / plain.dt_s(), 2.0, 1e-9),
-        Line::value("mass added for twice the step", target.added_mass(), 3.0, 1e-9),
-        Line::value("step with nine times the mass", fixed.dt_s() / plain.dt_s(), 3.0, 1e-9),
-        Line::value("mass added", fixed.added_mass(), 8.0, 1e-9),
+        CheckedNumber::value("step for the asked one", target.dt_s() / plain.dt_s(), 2.0, 1e-9),
+        CheckedNumber::value("mass added for twice the step", target.added_mass(), 3.0, 1e-9),
+        CheckedNumber::value("step with nine times the mass", fixed.dt_s() / plain.dt_s(), 3.0, 1e-9),
+        CheckedNumber::value("mass added", fixed.added_mass(), 8.0, 1e-9),
     ]
     .into())
 }
@@ -168,8 +173,8 @@ fn sealed() -> Found {
     }
     let lost = 1.0 - run.chambers()[0].volume_m3 / before;
     Ok(vec![
-        Line::at_most("change of (p + p_atm) V, share", worst, 1e-6),
-        Line::at_least("volume pushed out, share", lost, 0.005),
+        CheckedNumber::at_most("change of (p + p_atm) V, share", worst, 1e-6),
+        CheckedNumber::at_least("volume pushed out, share", lost, 0.005),
         balance(run.ledger().residual_share()),
     ]
     .into())

@@ -43,46 +43,47 @@ const MOVE_S: f64 = 0.01;
 const REST_S: f64 = 0.03;
 
 fn slope() -> Found {
-    let mut run = Run::new(&Setup { around: 64, along: 36, grade: 0.0, hourglass: 0.01 }, &[at_share(0.2)])?;
+    let mut run = CantileverRun::new(&Setup { around: 64, along: 36, grade: 0.0, hourglass: 0.01 }, &[at_share(0.2)])?;
     let [point] = &run.points()?[..] else { return Ok(CheckOutcome::default()) };
     let line = {
         let Cantilever { radius_m: r, thickness_m: t, length_m: l, young_pa, shear_pa, .. } = BEAM;
         l.powi(3) / (3.0 * young_pa * t * PI * r.powi(3)) + l / (0.5 * shear_pa * 2.0 * PI * r * t)
     };
     let measured = 1e3 * point.deflection_m / point.force_n;
-    Ok(vec![Line::value("tip deflection per force [mm/N]", measured, 1e3 * line, 0.02)].into())
+    Ok(vec![CheckedNumber::value("tip deflection per force [mm/N]", measured, 1e3 * line, 0.02)].into())
 }
 
 fn wrinkling() -> Found {
     const SHARES: [f64; 6] = [0.25, 0.5, 0.75, 0.9, 0.97, 0.99];
-    let mut run = Run::new(&Setup { around: 48, along: 72, grade: 0.6, hourglass: 0.001 }, &SHARES.map(at_share))?;
+    let mut run =
+        CantileverRun::new(&Setup { around: 48, along: 72, grade: 0.6, hourglass: 0.001 }, &SHARES.map(at_share))?;
     let points = run.points()?;
     let collapse = collapse_tip_load_n(&BEAM);
-    let mut lines: Vec<Line> = SHARES
+    let mut lines: Vec<CheckedNumber> = SHARES
         .iter()
         .zip(&points)
         .take(5)
         .map(|(share, point)| {
             let name = format!("force at {:.2} mm, {share} of collapse [N]", 1e3 * point.deflection_m);
-            Line::value(&name, point.force_n, share * collapse, 0.05)
+            CheckedNumber::value(&name, point.force_n, share * collapse, 0.05)
         })
         .collect();
     let [wrinkled, collapsed] = [0.5, 1.0].map(|share| share * collapse * BEAM.length_m);
-    lines.push(Line::value("moment of the first wrinkle [N m]", first_wrinkle(&points), wrinkled, 0.05));
+    lines.push(CheckedNumber::value("moment of the first wrinkle [N m]", first_wrinkle(&points), wrinkled, 0.05));
     let largest = points.iter().fold(0.0, |most: f64, p| most.max(p.force_n));
-    lines.push(Line::value("moment of collapse [N m]", largest * BEAM.length_m, collapsed, 0.05));
-    lines.push(Line::at_most("energy residual over work", run.run.ledger().residual_share(), 0.01));
+    lines.push(CheckedNumber::value("moment of collapse [N m]", largest * BEAM.length_m, collapsed, 0.05));
+    lines.push(CheckedNumber::at_most("energy residual over work", run.run.ledger().residual_share(), 0.01));
     Ok(CheckOutcome::drawn(lines, figure(&points)))
 }
 
 /// Moment in the section that is looked at when its compressed side has lost its tension, from the two points before.
-fn first_wrinkle(points: &[Point]) -> f64 {
+fn first_wrinkle(points: &[TipState]) -> f64 {
     let [a, b, ..] = points else { return f64::NAN };
     let force = a.force_n + a.tension_pa * (b.force_n - a.force_n) / (a.tension_pa - b.tension_pa);
     force * (BEAM.length_m - b.section_m)
 }
 
-fn figure(points: &[Point]) -> Figure {
+fn figure(points: &[TipState]) -> Figure {
     let exact =
         (1..=99).map(|i| f64::from(i) / 100.0).map(|share| [1e3 * at_share(share), share * collapse_tip_load_n(&BEAM)]);
     let engine = points.iter().map(|p| [1e3 * p.deflection_m, p.force_n]);
@@ -105,7 +106,7 @@ struct Setup {
 }
 
 /// One place of the tip, at rest.
-struct Point {
+struct TipState {
     deflection_m: f64,
     force_n: f64,
     /// Axial stress on the compressed side of the section at `section_m` from the base.
@@ -113,7 +114,7 @@ struct Point {
     section_m: f64,
 }
 
-struct Run {
+struct CantileverRun {
     problem: Problem,
     run: Simulation,
     deflections_m: Vec<f64>,
@@ -121,8 +122,8 @@ struct Run {
     probe: (usize, f64),
 }
 
-impl Run {
-    fn new(setup: &Setup, deflections_m: &[f64]) -> Result<Run, FemError> {
+impl CantileverRun {
+    fn new(setup: &Setup, deflections_m: &[f64]) -> Result<CantileverRun, FemError> {
         let mesh = mesh(setup)?;
         // A quarter of a radius from the clamp: its effect reaches √(N R²/(E t)) = 1 mm.
         let at = |ring: usize| mesh.points[ring * setup.around][0];
@@ -130,10 +131,10 @@ impl Run {
         let probe = (ring * setup.around + setup.around * 3 / 4, 0.5 * (at(ring) + at(ring + 1)));
         let problem = problem(mesh, setup.hourglass, deflections_m);
         let run = Simulation::new(&problem)?;
-        Ok(Run { problem, run, deflections_m: deflections_m.to_vec(), probe })
+        Ok(CantileverRun { problem, run, deflections_m: deflections_m.to_vec(), probe })
     }
 
-    fn points(&mut self) -> Result<Vec<Point>, FemError> {
+    fn points(&mut self) -> Result<Vec<TipState>, FemError> {
         let mut points = Vec::new();
         for (k, deflection_m) in self.deflections_m.iter().enumerate() {
             let time = INFLATED_S + (k + 1) as f64 * (MOVE_S + REST_S);
@@ -142,7 +143,7 @@ impl Run {
             let force_n = nodes(&self.problem.mesh, "hung").iter().map(|n| forces[*n as usize][2]).sum();
             // Across the axis the wall carries p R, so the smaller principal stress is the axial one.
             let tension_pa = self.run.element_fields().principal_stress_pa[self.probe.0][1];
-            points.push(Point { deflection_m: *deflection_m, force_n, tension_pa, section_m: self.probe.1 });
+            points.push(TipState { deflection_m: *deflection_m, force_n, tension_pa, section_m: self.probe.1 });
         }
         Ok(points)
     }

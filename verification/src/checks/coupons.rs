@@ -1,6 +1,6 @@
 //! Strips cut from a fabric and pulled: does the engine give back the moduli and the curves that went in?
 
-use super::pulled::Strip;
+use super::pulled::PulledStrip;
 use super::setup::*;
 use models::fabrics::{Curve as Table, NeoHookean, Orthotropic, Woven, Yarn};
 use std::f64::consts::FRAC_PI_4;
@@ -44,7 +44,7 @@ fn linear() -> Found {
     for (name, turns, modulus_pa) in [("E0", 0.0, 96.5e6), ("E45", 1.0, 4.05e6), ("E90", 2.0, 120e6)] {
         // Twenty periods of the lowest stretching mode, f = c/2L.
         let step_s = 20.0 * 2.0 * 0.1 / (modulus_pa / 1000.0_f64).sqrt();
-        let strip = Strip {
+        let strip = PulledStrip {
             size_m: [0.1, 0.01],
             elements: [40, 4],
             fabric: Arc::new(fabric),
@@ -55,7 +55,7 @@ fn linear() -> Found {
         let mut run = strip.start()?;
         let read = strip.read(&mut run, 1.25 * step_s)?;
         let found_mpa = read.stress_pa / read.strain * 1e-6;
-        outcome.lines.push(Line::value(format!("{name} [MPa]"), found_mpa, modulus_pa * 1e-6, 0.01));
+        outcome.lines.push(CheckedNumber::value(format!("{name} [MPa]"), found_mpa, modulus_pa * 1e-6, 0.01));
         outcome.lines.push(balance(run.ledger().residual_share()));
     }
     Ok(outcome)
@@ -64,7 +64,7 @@ fn linear() -> Found {
 fn rubber() -> Found {
     let fabric = NeoHookean::new(50.3e6, 2e-4);
     let step_s = 8e-3;
-    let strip = Strip {
+    let strip = PulledStrip {
         size_m: [0.08, 0.01],
         elements: [40, 5],
         fabric: Arc::new(fabric),
@@ -81,9 +81,9 @@ fn rubber() -> Found {
         let stretch = 1.0 + read.strain;
         marks.push([100.0 * read.strain, read.stress_pa * 1e-6]);
         let name = format!("nominal stress at {:.1} % [MPa]", 100.0 * read.strain);
-        outcome.lines.push(Line::value(&name, read.stress_pa * 1e-6, law(stretch) * 1e-6, 0.01));
+        outcome.lines.push(CheckedNumber::value(&name, read.stress_pa * 1e-6, law(stretch) * 1e-6, 0.01));
     }
-    outcome.lines.push(Line::at_least("strain reached", marks[3][0] / 100.0, 0.2));
+    outcome.lines.push(CheckedNumber::at_least("strain reached", marks[3][0] / 100.0, 0.2));
     outcome.lines.push(balance(run.ledger().residual_share()));
     let exact = (0..=22).map(f64::from).map(|e| [e, law(1.0 + 0.01 * e) * 1e-6]);
     let curves = vec![FigureCurve::exact("2 C10 (l - 1/l²)", exact), FigureCurve::engine("engine", marks)];
@@ -101,7 +101,7 @@ fn woven() -> Found {
     let fabric = Woven::new([yarn.clone(), yarn], Table::linear(1e6), 0.0, 5e-5).map_err(FemError::Problem)?;
     let step_s = 20e-3;
     let strains = [0.02, 0.04, 0.06, 0.045, 0.02, 0.0];
-    let strip = Strip {
+    let strip = PulledStrip {
         size_m: [0.1, 0.01],
         elements: [20, 2],
         fabric: Arc::new(fabric),
@@ -119,16 +119,21 @@ fn woven() -> Found {
         let name = format!("stress at {:.1} %, {way} [MPa]", 100.0 * strain);
         let exact = curve.value(*strain) * 1e-6;
         outcome.lines.push(match exact == 0.0 {
-            true => Line::between("stress back at no strain [MPa]", read.stress_pa * 1e-6, -0.01, 0.01),
-            false => Line::value(&name, read.stress_pa * 1e-6, exact, 0.01),
+            true => CheckedNumber::between("stress back at no strain [MPa]", read.stress_pa * 1e-6, -0.01, 0.01),
+            false => CheckedNumber::value(&name, read.stress_pa * 1e-6, exact, 0.01),
         });
     }
     let loop_j = (load.integral(0.06) - back.integral(0.06)) * 0.1 * 0.01 * 5e-5;
     let row = |name: &str| energy_j(&run, name);
     let spent_j = row("supports") - row("viscosity") - row("mass damping");
     let lost_j = row("fabric hysteresis");
-    outcome.lines.push(Line::value("energy lost in the fabric [mJ]", 1e3 * lost_j, 1e3 * loop_j, 0.01));
-    outcome.lines.push(Line::value("work of the clamps over the loop [mJ]", 1e3 * spent_j, 1e3 * loop_j, 0.01));
+    outcome.lines.push(CheckedNumber::value("energy lost in the fabric [mJ]", 1e3 * lost_j, 1e3 * loop_j, 0.01));
+    outcome.lines.push(CheckedNumber::value(
+        "work of the clamps over the loop [mJ]",
+        1e3 * spent_j,
+        1e3 * loop_j,
+        0.01,
+    ));
     outcome.lines.push(balance(run.ledger().residual_share()));
     let known = |name, rows: [[f64; 2]; 4]| FigureCurve::exact(name, rows.map(|r| [100.0 * r[0], 1e-6 * r[1]]));
     let tables = [known("loading, table", LOADING), known("unloading, table", UNLOADING)];

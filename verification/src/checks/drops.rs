@@ -78,8 +78,8 @@ fn ball_on_floor() -> Found {
     let [lowest, residual] = watch(&mut run, 0.03, &lowest)?;
     let rebound = momentum(&mass, &run.velocities())[2] / total;
     Ok(vec![
-        Line::at_most("deepest node below the floor [mm]", -1e3 * lowest, 0.1),
-        Line::between("rebound speed over impact speed", rebound / SPEED, 0.3, 1.0),
+        CheckedNumber::at_most("deepest node below the floor [mm]", -1e3 * lowest, 0.1),
+        CheckedNumber::between("rebound speed over impact speed", rebound / SPEED, 0.3, 1.0),
         balance(residual),
     ]
     .into())
@@ -133,7 +133,7 @@ fn collision(
     end_s: f64,
     thrown: &str,
     clear: &dyn Fn(&Simulation) -> f64,
-) -> Result<Vec<Line>, FemError> {
+) -> Result<Vec<CheckedNumber>, FemError> {
     let mass = masses(mesh, &[0.2, 0.2]);
     let start = momentum(&mass, &run.velocities());
     let [clear, residual] = watch(run, end_s, clear)?;
@@ -143,9 +143,9 @@ fn collision(
     let v = run.velocities();
     let given: f64 = hit.map(|n| mass[n] * v[n][2]).sum();
     Ok(vec![
-        Line::at_least("smallest distance between the two [mm], negative on the wrong side", 1e3 * clear, 0.0),
-        Line::at_least("momentum handed over, share", given / start[2], 0.1),
-        Line::at_most("change of momentum, share", changed / start[2].abs(), 1e-10),
+        CheckedNumber::at_least("smallest distance between the two [mm], negative on the wrong side", 1e3 * clear, 0.0),
+        CheckedNumber::at_least("momentum handed over, share", given / start[2], 0.1),
+        CheckedNumber::at_most("change of momentum, share", changed / start[2].abs(), 1e-10),
         balance(residual),
     ])
 }

@@ -40,8 +40,8 @@ fn run() -> Found {
         run.step() < STEPS
     })?;
     Ok(vec![
-        Line::at_least("kinetic energy over work, last half", moving, 0.01),
-        Line::at_most("largest residual over work, 1e5 steps", worst, 1e-4),
+        CheckedNumber::at_least("kinetic energy over work, last half", moving, 0.01),
+        CheckedNumber::at_most("largest residual over work, 1e5 steps", worst, 1e-4),
     ]
     .into())
 }

@@ -41,16 +41,20 @@ fn strip() -> Found {
     for elements in [2, 6, 12, 24, 48] {
         let [middle, edge] = strip_moments_n(elements)?;
         let size = SOFT_M / elements as f64 / FOLD_M;
-        lines.push(Line::value(
+        lines.push(CheckedNumber::value(
             format!("moment per width at the edge, elements of {size} √(D/T) [N]"),
             edge,
             at_edge,
             0.03,
         ));
-        lines.push(Line::value("at the middle [N]", middle, at_middle, 0.03));
+        lines.push(CheckedNumber::value("at the middle [N]", middle, at_middle, 0.03));
         errors.push(middle - at_middle);
     }
-    lines.push(Line::at_least("rate at the middle from 1 to 0.5 √(D/T)", rate(errors[3], errors[4], 2.0), 1.9));
+    lines.push(CheckedNumber::at_least(
+        "rate at the middle from 1 to 0.5 √(D/T)",
+        rate(errors[3], errors[4], 2.0),
+        1.9,
+    ));
     Ok(lines.into())
 }
 
@@ -116,17 +120,17 @@ fn sealed() -> Found {
         let pouch = Pouch { length_m: 0.06, width_m: ratio * 0.06 };
         let theta = sealed_theta(&pouch);
         let [ends, holds] = blown(&pouch)?;
-        lines.push(Line::value(
+        lines.push(CheckedNumber::value(
             format!("W/L = {ratio}: volume [cm³]"),
             1e6 * holds,
             1e6 * sealed_volume_m3(&pouch, theta),
             0.03,
         ));
         if ratio > 1.5 {
-            lines.push(Line::value(format!("W/L = {ratio}: contraction"), ends, contraction(theta), 0.03));
+            lines.push(CheckedNumber::value(format!("W/L = {ratio}: contraction"), ends, contraction(theta), 0.03));
         } else {
             // A volume that is flat at its largest leaves the contraction of squat pouches to what the approximation lacks.
-            lines.push(Line::between(
+            lines.push(CheckedNumber::between(
                 format!("W/L = {ratio}: contraction"),
                 ends,
                 contraction(theta),

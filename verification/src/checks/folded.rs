@@ -51,10 +51,14 @@ fn run() -> Found {
     let [order, pierced, residual] = blow_up(true)?;
     let without = blow_up(false)?[1];
     Ok(vec![
-        Line::at_least("smallest distance between layers [mm], negative on the wrong side", 1e3 * order, -0.05),
-        Line::at_most("sides of elements that pierce another face", pierced, 0.0),
-        Line::at_least("the same without contact", without, 50.0),
-        Line::at_most("energy residual over external work", residual, 0.02),
+        CheckedNumber::at_least(
+            "smallest distance between layers [mm], negative on the wrong side",
+            1e3 * order,
+            -0.05,
+        ),
+        CheckedNumber::at_most("sides of elements that pierce another face", pierced, 0.0),
+        CheckedNumber::at_least("the same without contact", without, 50.0),
+        CheckedNumber::at_most("energy residual over external work", residual, 0.02),
     ]
     .into())
 }

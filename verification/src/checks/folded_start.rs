@@ -21,8 +21,8 @@ fn run() -> Found {
     folded.start = start(&folded, |x, up| bent(x, up * 0.5 * GAP_M));
     apart.start = start(&apart, |x, up| [x, 0.0, up * 0.25e-3]);
     Ok(vec![
-        Line::value("folded by 90 degrees: volume [cm³]", 1e6 * volume(folded, true)?, 1e6 * flat, 0.01),
-        Line::value("0.5 mm apart: volume [cm³]", 1e6 * volume(apart, false)?, 1e6 * flat, 0.01),
+        CheckedNumber::value("folded by 90 degrees: volume [cm³]", 1e6 * volume(folded, true)?, 1e6 * flat, 0.01),
+        CheckedNumber::value("0.5 mm apart: volume [cm³]", 1e6 * volume(apart, false)?, 1e6 * flat, 0.01),
     ]
     .into())
 }

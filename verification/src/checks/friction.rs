@@ -37,10 +37,15 @@ fn incline() -> Found {
             if friction < TURN.tan() {
                 let carried = G * TURN.sin() - 2.0 * way / (t * t) * (1.0 + run.added_mass());
                 let found = carried / (G * TURN.cos());
-                lines.push(Line::value(format!("{name}: friction of the sliding sheet"), found, friction, 0.03));
+                lines.push(CheckedNumber::value(
+                    format!("{name}: friction of the sliding sheet"),
+                    found,
+                    friction,
+                    0.03,
+                ));
             } else {
                 let creep = format!("{name}: creep of a sheet of {} mm in 1 s [mm]", 1e3 * thickness_m);
-                lines.push(Line::at_most(creep, 1e3 * way.abs(), 0.05));
+                lines.push(CheckedNumber::at_most(creep, 1e3 * way.abs(), 0.05));
             }
             lines.push(balance(run.ledger().residual_share()));
         }
@@ -66,7 +71,7 @@ fn capstan() -> Found {
             }
             let exact = (friction * std::f64::consts::FRAC_PI_2).exp();
             let what = format!("{name}, μ = {friction}: pull over counterforce");
-            lines.push(Line::value(what, pull / PULL_N, exact, 0.03));
+            lines.push(CheckedNumber::value(what, pull / PULL_N, exact, 0.03));
             lines.push(balance(run.ledger().residual_share()));
         }
     }

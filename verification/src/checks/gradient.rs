@@ -1,7 +1,7 @@
 //! Force = −∂E/∂x of every term.
 
 use super::setup::*;
-use fem::contact::Contact;
+use fem::contact::LayerContact;
 use fem::mesh::generate::{Around, Cap, Tube, crossed_sheets, tube};
 use fem::problem;
 use fem::terms::{DeadLoads, Obstacles, RestCurvature};
@@ -39,7 +39,7 @@ fn run() -> Found {
     let rest = RestCurvature::new(&mesh, &problem.sections);
     let mut lines = Vec::new();
     let mut judge = |name: &str, term: &dyn Term, q: &[f64], step_m: f64| {
-        lines.push(Line::at_most(
+        lines.push(CheckedNumber::at_most(
             format!("{name}: error over largest force"),
             slope_error(term, q, PROBES, step_m),
             LIMIT,
@@ -72,10 +72,10 @@ fn loads(mesh: &Mesh, mass_kg: &[f64]) -> Result<Vec<Box<dyn Term>>, FemError> {
 }
 
 /// Two crossed sheets pressed into each other by half of the gap between them.
-fn pressed() -> Result<(Contact, Vec<f64>), FemError> {
+fn pressed() -> Result<(LayerContact, Vec<f64>), FemError> {
     let mesh = crossed_sheets(0.06, 0.04, 6, 1e-4)?;
     let contact = problem::Contact { friction: 0.0, ..problem::Contact::default() };
-    let mut contact = Contact::new(&mesh, &contact, &vec![1e-5; mesh.points.len()], 4e-6)?;
+    let mut contact = LayerContact::new(&mesh, &contact, &vec![1e-5; mesh.points.len()], 4e-6)?;
     let mut q: Vec<f64> = Vec::new();
     for (i, p) in mesh.points.iter().enumerate() {
         let down = if p[2] > 5e-5 { -1.5e-4 } else { 0.0 };

@@ -20,10 +20,15 @@ fn run() -> Found {
     let (mut lines, mut first) = (Vec::new(), None);
     for (name, problem) in each_mass(&problem)? {
         let run = settle(&problem)?;
-        lines.push(Line::value(format!("{name}: force of the support [N]"), -pull_n(&run, "left"), 0.0981, 1e-3));
+        lines.push(CheckedNumber::value(
+            format!("{name}: force of the support [N]"),
+            -pull_n(&run, "left"),
+            0.0981,
+            1e-3,
+        ));
         let way = 1e6 * (mean(&problem.mesh, "right", &run.positions(), 0) - 0.2);
         let exact = *first.get_or_insert(way);
-        lines.push(Line::value(format!("{name}: way of the lower edge [µm]"), way, exact, 1e-3));
+        lines.push(CheckedNumber::value(format!("{name}: way of the lower edge [µm]"), way, exact, 1e-3));
         lines.push(balance(run.ledger().residual_share()));
     }
     Ok(lines.into())

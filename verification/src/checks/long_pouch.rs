@@ -33,11 +33,11 @@ fn run() -> Found {
     let (_, blocked) = blown(drive("right", [true; 3], 0, rise(0.02, -held * POUCH.length_m)))?;
     let force = elastic_pouch::force_n(&POUCH, film, HELD_RAD, PRESSURE_PA);
     Ok(vec![
-        Line::value("contraction", contraction, free, 0.01),
-        Line::value("volume [mm³]", 1e9 * volume, 1e9 * round, 0.01),
-        Line::value("force of the held pouch, driven end [N]", pull_n(&blocked, "right"), force, 0.01),
-        Line::value("the same, other end [N]", -pull_n(&blocked, "left"), force, 0.01),
-        Line::at_most("kinetic share at the end", run.ledger().kinetic_share(), 1e-5),
+        CheckedNumber::value("contraction", contraction, free, 0.01),
+        CheckedNumber::value("volume [mm³]", 1e9 * volume, 1e9 * round, 0.01),
+        CheckedNumber::value("force of the held pouch, driven end [N]", pull_n(&blocked, "right"), force, 0.01),
+        CheckedNumber::value("the same, other end [N]", -pull_n(&blocked, "left"), force, 0.01),
+        CheckedNumber::at_most("kinetic share at the end", run.ledger().kinetic_share(), 1e-5),
     ]
     .into())
 }

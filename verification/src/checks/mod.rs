@@ -54,14 +54,14 @@ pub struct Check {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct CheckOutcome {
     /// Numbers of the engine, each with its known one.
-    pub lines: Vec<Line>,
+    pub lines: Vec<CheckedNumber>,
     /// Curves worth a picture; may be empty.
     pub figure: Option<Figure>,
 }
 
 /// One number against a known one.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Line {
+pub struct CheckedNumber {
     /// Name of the compared number, with its unit.
     pub quantity: String,
     /// Number that the engine gave, in the same unit.
@@ -169,14 +169,14 @@ impl Check {
     }
 }
 
-impl From<Vec<Line>> for CheckOutcome {
-    fn from(lines: Vec<Line>) -> CheckOutcome {
+impl From<Vec<CheckedNumber>> for CheckOutcome {
+    fn from(lines: Vec<CheckedNumber>) -> CheckOutcome {
         CheckOutcome { lines, figure: None }
     }
 }
 
 impl CheckOutcome {
-    fn drawn(lines: Vec<Line>, figure: Figure) -> CheckOutcome {
+    fn drawn(lines: Vec<CheckedNumber>, figure: Figure) -> CheckOutcome {
         CheckOutcome { lines, figure: Some(figure) }
     }
 }
@@ -209,29 +209,29 @@ impl Against {
     }
 }
 
-impl Line {
-    fn new(quantity: impl Into<String>, measured: f64, against: Against) -> Line {
-        Line { quantity: quantity.into(), measured, against }
+impl CheckedNumber {
+    fn new(quantity: impl Into<String>, measured: f64, against: Against) -> CheckedNumber {
+        CheckedNumber { quantity: quantity.into(), measured, against }
     }
 
     /// A number against a known value.
-    pub fn value(quantity: impl Into<String>, measured: f64, exact: f64, tolerance: f64) -> Line {
-        Line::new(quantity, measured, Against::Value { exact, tolerance })
+    pub fn value(quantity: impl Into<String>, measured: f64, exact: f64, tolerance: f64) -> CheckedNumber {
+        CheckedNumber::new(quantity, measured, Against::Value { exact, tolerance })
     }
 
     /// A number that must not exceed a limit.
-    pub fn at_most(quantity: impl Into<String>, measured: f64, limit: f64) -> Line {
-        Line::new(quantity, measured, Against::AtMost(limit))
+    pub fn at_most(quantity: impl Into<String>, measured: f64, limit: f64) -> CheckedNumber {
+        CheckedNumber::new(quantity, measured, Against::AtMost(limit))
     }
 
     /// A number that must reach a limit.
-    pub fn at_least(quantity: impl Into<String>, measured: f64, limit: f64) -> Line {
-        Line::new(quantity, measured, Against::AtLeast(limit))
+    pub fn at_least(quantity: impl Into<String>, measured: f64, limit: f64) -> CheckedNumber {
+        CheckedNumber::new(quantity, measured, Against::AtLeast(limit))
     }
 
     /// A number that must lie in a band.
-    pub fn between(quantity: impl Into<String>, measured: f64, low: f64, high: f64) -> Line {
-        Line::new(quantity, measured, Against::Between(low, high))
+    pub fn between(quantity: impl Into<String>, measured: f64, low: f64, high: f64) -> CheckedNumber {
+        CheckedNumber::new(quantity, measured, Against::Between(low, high))
     }
 
     /// Relative error, where there is a known value other than 0.
@@ -255,10 +255,10 @@ mod tests {
     #[test]
     fn not_a_number_passes_nothing() {
         let lines = [
-            Line::value("", f64::NAN, 1.0, 0.1),
-            Line::at_most("", f64::NAN, 1.0),
-            Line::at_least("", f64::NAN, 1.0),
-            Line::between("", f64::NAN, 0.0, 1.0),
+            CheckedNumber::value("", f64::NAN, 1.0, 0.1),
+            CheckedNumber::at_most("", f64::NAN, 1.0),
+            CheckedNumber::at_least("", f64::NAN, 1.0),
+            CheckedNumber::between("", f64::NAN, 0.0, 1.0),
         ];
         assert!(lines.iter().all(|line| !line.passes()));
     }

@@ -68,7 +68,7 @@ fn uniform() -> Found {
             let inner = |p: &[f64; 3]| (0..2).all(|k| p[k] > 1e-9 && p[k] < SIDES_M[k] - 1e-9);
             let inside = mesh.points.iter().zip(force.as_chunks::<4>().0).filter(|(p, _)| inner(p));
             let rest = inside.map(|(_, f)| largest(f)).fold(0.0, f64::max);
-            lines.push(Line::at_most(
+            lines.push(CheckedNumber::at_most(
                 format!("{kind}, {name}: force inside/at the edge"),
                 rest / largest(&force),
                 1e-12,
@@ -77,7 +77,7 @@ fn uniform() -> Found {
             let stress = sheet.fields(&q).principal_stress_pa;
             let error =
                 stress.iter().flat_map(|s| [s[0] / exact[0] - 1.0, s[1] / exact[1] - 1.0]).collect::<Vec<f64>>();
-            lines.push(Line::at_most(format!("{kind}, {name}: error of stress"), largest(&error), 1e-12));
+            lines.push(CheckedNumber::at_most(format!("{kind}, {name}: error of stress"), largest(&error), 1e-12));
         }
     }
     Ok(lines.into())
@@ -114,10 +114,10 @@ fn bending() -> Found {
     let theory = (SIDES_M[0] / 40.0 / radius).powi(2) / 6.0;
     let fine = plate(SIDES_M[0], SIDES_M[1], 40, 20, Some(Distortion { share: 0.1, seed: 1 }))?;
     Ok(vec![
-        Line::value("energy over ½ D κ² A, 40 elements", 1.0 + errors[2], 1.0, 2e-3),
-        Line::value("what it lacks over (h/R)²/6", -errors[2] / theory, 1.0, 0.01),
-        Line::at_least("rate", rate(errors[1], errors[2], 2.0), 1.95),
-        Line::value("the same, elements distorted by 10 %", stored(&fine, SIDES_M[0] / 40.0), 1.0, 0.05),
+        CheckedNumber::value("energy over ½ D κ² A, 40 elements", 1.0 + errors[2], 1.0, 2e-3),
+        CheckedNumber::value("what it lacks over (h/R)²/6", -errors[2] / theory, 1.0, 0.01),
+        CheckedNumber::at_least("rate", rate(errors[1], errors[2], 2.0), 1.95),
+        CheckedNumber::value("the same, elements distorted by 10 %", stored(&fine, SIDES_M[0] / 40.0), 1.0, 0.05),
     ]
     .into())
 }
@@ -163,7 +163,7 @@ fn two_thicknesses() -> Found {
                 (half - 0.5 * SIDES_M[0] * 0.5 * SIDES_M[1] / 20.0 / (radius * radius)) * (stiffness[0] + stiffness[1])
             }
         };
-        lines.push(Line::value(format!("{name}: energy over ½ ∫ D κ²"), stored / exact, 1.0, 2e-3));
+        lines.push(CheckedNumber::value(format!("{name}: energy over ½ ∫ D κ²"), stored / exact, 1.0, 2e-3));
     }
     Ok(lines.into())
 }
@@ -183,8 +183,12 @@ fn rigid() -> Found {
         let mut force = vec![0.0; q.len()];
         sheet.add(&Pose::nodes(&q), &mut force);
         let tension = largest(&sheet.fields(&q).von_mises_pa) * fabric.thickness_m();
-        lines.push(Line::at_most(format!("{}: tension over stiffness", law.name), tension / stiff, 1e-12));
-        lines.push(Line::at_most(format!("{}: force over stiffness [m]", law.name), largest(&force) / stiff, 1e-13));
+        lines.push(CheckedNumber::at_most(format!("{}: tension over stiffness", law.name), tension / stiff, 1e-12));
+        lines.push(CheckedNumber::at_most(
+            format!("{}: force over stiffness [m]", law.name),
+            largest(&force) / stiff,
+            1e-13,
+        ));
     }
     Ok(lines.into())
 }

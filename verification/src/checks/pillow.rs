@@ -29,18 +29,23 @@ fn run() -> Found {
     let mut lines = Vec::new();
     for (n, [centre, edge]) in &rows {
         let ([low, high], [near, far]) = (CENTRE_M, MID_EDGE_M);
-        lines.push(Line::between(format!("height of the centre, {n} per side [m]"), *centre, 0.97 * low, 1.03 * high));
-        lines.push(Line::between(format!("pull-in of the edges, {n} per side [m]"), *edge, near, far));
+        lines.push(CheckedNumber::between(
+            format!("height of the centre, {n} per side [m]"),
+            *centre,
+            0.97 * low,
+            1.03 * high,
+        ));
+        lines.push(CheckedNumber::between(format!("pull-in of the edges, {n} per side [m]"), *edge, near, far));
     }
     for (k, name) in ["height of the centre", "pull-in of the edges"].iter().enumerate() {
         let change = (rows[4].1[k] / rows[2].1[k] - 1.0).abs();
-        lines.push(Line::at_most(format!("{name}: change from 32 to 48 per side"), change, 0.01));
+        lines.push(CheckedNumber::at_most(format!("{name}: change from 32 to 48 per side"), change, 0.01));
     }
     let edges = || rows.iter().map(|(_, found)| found[1]);
     let (least, most) = (edges().fold(f64::INFINITY, f64::min), edges().fold(0.0, f64::max));
     let mean = edges().sum::<f64>() / rows.len() as f64;
     let name = "pull-in of the edges: largest less smallest of five meshes, over their mean";
-    lines.push(Line::at_most(name, (most - least) / mean, 0.05));
+    lines.push(CheckedNumber::at_most(name, (most - least) / mean, 0.05));
     Ok(CheckOutcome::drawn(lines, figure(&rows)))
 }
 

@@ -23,13 +23,18 @@ fn run() -> Found {
         (0.06, 300.0),
     )?;
     let exact = elastic(pressure * radius / (modulus * thickness_m), 0.3);
-    lines.push(Line::value("balloon: thickness over R0", thickness / radius, exact.thickness, 0.02));
-    lines.push(Line::value("balloon: volume over R0³", volume / radius.powi(3), exact.volume, 0.02));
-    lines.push(Line::at_most("balloon: hourglass share of stored energy", share, 0.15));
+    lines.push(CheckedNumber::value("balloon: thickness over R0", thickness / radius, exact.thickness, 0.02));
+    lines.push(CheckedNumber::value("balloon: volume over R0³", volume / radius.powi(3), exact.volume, 0.02));
+    lines.push(CheckedNumber::at_most("balloon: hourglass share of stored energy", share, 0.15));
     let [_, volume, share] =
         inflate(generate::pillow(1.0, 32, 0.0)?, [588e6, 0.4, 6e-4], 0.1, (0.08, 1e3), (0.3, 60.0))?;
-    lines.push(Line::between("teabag: volume over side³, at most 2 % below the bound", volume, 0.98 * 0.2055, 0.217));
-    lines.push(Line::at_most("teabag: hourglass share of stored energy", share, 0.15));
+    lines.push(CheckedNumber::between(
+        "teabag: volume over side³, at most 2 % below the bound",
+        volume,
+        0.98 * 0.2055,
+        0.217,
+    ));
+    lines.push(CheckedNumber::at_most("teabag: hourglass share of stored energy", share, 0.15));
     Ok(lines.into())
 }
 

@@ -4,7 +4,7 @@ use super::setup::*;
 use models::Fabric;
 
 /// A flat strip that two clamps pull along x.
-pub(super) struct Strip {
+pub(super) struct PulledStrip {
     pub size_m: [f64; 2],
     pub elements: [usize; 2],
     pub fabric: Arc<dyn Fabric>,
@@ -16,14 +16,14 @@ pub(super) struct Strip {
 }
 
 /// What a strip does at one moment.
-pub(super) struct Reading {
+pub(super) struct StripReading {
     /// Strain between two marks in the middle fifth.
     pub strain: f64,
     /// Force on the right clamp over the unstrained cross-section \[Pa\].
     pub stress_pa: f64,
 }
 
-impl Strip {
+impl PulledStrip {
     /// The run, both clamps holding all three axes.
     pub(super) fn start(&self) -> Result<Simulation, FemError> {
         let [length, width] = self.size_m;
@@ -38,13 +38,13 @@ impl Strip {
     }
 
     /// Steps to a time and reads strain and stress.
-    pub(super) fn read(&self, run: &mut Simulation, time_s: f64) -> Result<Reading, FemError> {
+    pub(super) fn read(&self, run: &mut Simulation, time_s: f64) -> Result<StripReading, FemError> {
         advance(run, time_s)?;
         let marks = [0.4, 0.6].map(|share| (share * self.elements[0] as f64).round());
         let apart = (marks[1] - marks[0]) * self.size_m[0] / self.elements[0] as f64;
         let strain = (self.mean_x(run, marks[1]) - self.mean_x(run, marks[0])) / apart - 1.0;
         let force = pull_n(run, "right");
-        Ok(Reading { strain, stress_pa: force / (self.size_m[1] * self.fabric.thickness_m()) })
+        Ok(StripReading { strain, stress_pa: force / (self.size_m[1] * self.fabric.thickness_m()) })
     }
 
     /// Mean place of a column of nodes \[m\].

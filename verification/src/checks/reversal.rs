@@ -35,12 +35,12 @@ fn run() -> Found {
             advance(&mut run, time_s)?;
             let exact = SECTION_M2 * if there { load.value(strain) } else { back.value(strain) };
             let what = format!("{name}: force at {strain}{} [N]", if there { "" } else { " on the way back" });
-            lines.push(Line::value(what, pull_n(&run, "right"), exact, 0.03));
+            lines.push(CheckedNumber::value(what, pull_n(&run, "right"), exact, 0.03));
         }
         advance(&mut run, problem.settings.end_s)?;
         let lost = SECTION_M2 * LENGTH_M * (load.integral(TURN.0) - back.integral(TURN.0));
         let found = energy_j(&run, "fabric hysteresis");
-        lines.push(Line::value(format!("{name}: energy lost [mJ]"), 1e3 * found, 1e3 * lost, 0.01));
+        lines.push(CheckedNumber::value(format!("{name}: energy lost [mJ]"), 1e3 * found, 1e3 * lost, 0.01));
         lines.push(balance(run.ledger().residual_share()));
     }
     Ok(lines.into())

@@ -41,15 +41,16 @@ fn run() -> Found {
     // Read between the rows of nodes by the parabola through three of them.
     let at = |mesh: usize, x: f64| parabola(&meshes[mesh], x) / far;
     let known = |x: f64| shell::displacement_m(&shell, pressure_pa, x) / far;
-    let mut lines = vec![Line::value("widening half way, over closed form", at(1, 0.499 * LENGTH_M), 1.0, 0.01)];
+    let mut lines =
+        vec![CheckedNumber::value("widening half way, over closed form", at(1, 0.499 * LENGTH_M), 1.0, 0.01)];
     for share in [1.0, 1.5, 2.0] {
         let x = share * edge;
         let name = format!("{share} edge lengths from the ring, over half way");
-        lines.push(Line::value(name, at(1, x), known(x), 0.01));
+        lines.push(CheckedNumber::value(name, at(1, x), known(x), 0.01));
     }
     let near = 0.75 * edge;
     let fall = rate(at(0, near) - known(near), at(1, near) - known(near), 2.0);
-    lines.push(Line::at_least("rate at 0.75 edge lengths", fall, 1.7));
+    lines.push(CheckedNumber::at_least("rate at 0.75 edge lengths", fall, 1.7));
     let line = (0..=100).map(|i| f64::from(i) * 0.05 * edge);
     let line = line.map(|x| [1e3 * x, 1e6 * shell::displacement_m(&shell, pressure_pa, x)]);
     let marks = meshes[1].iter().filter(|p| p[0] < 5.0 * edge).map(|p| [1e3 * p[0], 1e6 * p[1]]);

@@ -29,7 +29,7 @@ pub(super) const FOLDS: Check = Check::slow(
 const ROBOTS: [&str; 4] = ["spam", "cpam", "epam", "fpam"];
 
 /// A robot at the end of its ramp.
-struct End {
+struct RampEnd {
     run: Simulation,
     problem: Problem,
     /// Height of the outermost marker \[mm\].
@@ -43,9 +43,9 @@ fn run() -> Found {
         let ledger = end.run.ledger();
         let of = |what: &str| format!("{name}: {what}");
         lines.extend([
-            Line::at_most(of("kinetic share at the end"), ledger.kinetic_share(), 0.01),
-            Line::at_most(of("energy residual over external work"), ledger.residual_share(), 1e-3),
-            Line::at_most(of("hourglass share of stored energy"), ledger.hourglass_share(), 0.05),
+            CheckedNumber::at_most(of("kinetic share at the end"), ledger.kinetic_share(), 0.01),
+            CheckedNumber::at_most(of("energy residual over external work"), ledger.residual_share(), 1e-3),
+            CheckedNumber::at_most(of("hourglass share of stored energy"), ledger.hourglass_share(), 0.05),
         ]);
         tips.push([k as f64 + 1.0, end.y_mm]);
     }
@@ -59,18 +59,23 @@ fn folds() -> Found {
     let low = RobotSettings { actuator_pa: 10e3, wrinkle_length: None, ..RobotSettings::default() };
     let stiff = RobotSettings { bending_factor: 10.0 * low.bending_factor, ..low.clone() };
     let [soft, stiff] = [bend("epam", &low)?, bend("epam", &stiff)?];
-    let stored = |end: &End| energy_j(&end.run, "folds");
+    let stored = |end: &RampEnd| energy_j(&end.run, "folds");
     Ok(vec![
-        Line::value("energy of the folds [mJ]", 1e3 * stored(&soft), 1e3 * folds_j(&soft)?, 0.03),
-        Line::value("the same, ten times the stiffness [mJ]", 1e3 * stored(&stiff), 1e3 * folds_j(&stiff)?, 0.03),
-        Line::at_least("less height with ten times the stiffness", 1.0 - stiff.y_mm / soft.y_mm, 0.1),
+        CheckedNumber::value("energy of the folds [mJ]", 1e3 * stored(&soft), 1e3 * folds_j(&soft)?, 0.03),
+        CheckedNumber::value(
+            "the same, ten times the stiffness [mJ]",
+            1e3 * stored(&stiff),
+            1e3 * folds_j(&stiff)?,
+            0.03,
+        ),
+        CheckedNumber::at_least("less height with ten times the stiffness", 1.0 - stiff.y_mm / soft.y_mm, 0.1),
     ]
     .into())
 }
 
 /// Σ b 4 k (1 − cos ½φ) over the edges where the stiffness jumps, k of both sides in series on this mesh \[J\]; angles between the
 /// elements' directions across the edge and tensions by their fabric, both from the deformed mesh and not from the engine's rows.
-fn folds_j(end: &End) -> Result<f64, FemError> {
+fn folds_j(end: &RampEnd) -> Result<f64, FemError> {
     let problem = &end.problem;
     let (sheet, mesh, order) = shells(problem)?;
     let x = ordered(&order, &end.run.positions());
@@ -120,7 +125,7 @@ fn pull_n_m(element: &Element, fabric: &dyn Fabric, direction: V3, x: &[[f64; 4]
 }
 
 /// A robot at the end of one ramp, at rest.
-fn bend(name: &str, settings: &RobotSettings) -> Result<End, FemError> {
+fn bend(name: &str, settings: &RobotSettings) -> Result<RampEnd, FemError> {
     let (scenario, mut problem) = shipped(name, settings)?;
     problem.settings.threads = 1;
     let last = scenario.markers_m.last().copied().unwrap_or(scenario.length_m);
@@ -130,5 +135,5 @@ fn bend(name: &str, settings: &RobotSettings) -> Result<End, FemError> {
     advance(&mut run, problem.settings.end_s)?;
     run.wait_until(0.1, problem.settings.end_s, &mut |_| true)?;
     let end = line.at(&run.positions())?;
-    Ok(End { run, problem, y_mm: 1e3 * (end[0][1] - start[0][1]) })
+    Ok(RampEnd { run, problem, y_mm: 1e3 * (end[0][1] - start[0][1]) })
 }

@@ -1,6 +1,6 @@
 //! `ibr verify`: closed forms and checks, as text, tables and JSON.
 
-use super::{Against, CHECKS, Check, CheckOutcome, Figure, Line};
+use super::{Against, CHECKS, Check, CheckOutcome, CheckedNumber, Figure};
 use crate::exact::{OracleRow, oracle_table};
 use crate::{Error, Findings, Printed};
 use compare::Progress;
@@ -87,7 +87,7 @@ fn chosen(choice: &Choice) -> Result<Vec<&'static Check>, Error> {
     choice.only.iter().map(find).collect()
 }
 
-fn row(check: &Check, line: &Line, first: bool, cpu_s: f64) -> Vec<String> {
+fn row(check: &Check, line: &CheckedNumber, first: bool, cpu_s: f64) -> Vec<String> {
     let known = match line.against {
         Against::Value { exact, tolerance } => format!("{} ± {} %", short(exact), short(100.0 * tolerance)),
         Against::AtMost(limit) => format!("≤ {}", short(limit)),
@@ -120,7 +120,7 @@ fn short(x: f64) -> String {
 }
 
 fn engine_check<'a>(check: &'a Check, outcome: &CheckOutcome, cpu_s: f64) -> EngineCheck<'a> {
-    let line = |line: &Line| {
+    let line = |line: &CheckedNumber| {
         let mut against = Target::default();
         match line.against {
             Against::Value { exact, tolerance } => (against.exact, against.tolerance) = (Some(exact), Some(tolerance)),

@@ -9,7 +9,7 @@ pub(super) use fem::problem::{
 };
 pub(super) use fem::{FemError, Mesh, Problem, Simulation};
 
-pub(super) use super::{Check, CheckOutcome, Figure, FigureCurve, Found, Line};
+pub(super) use super::{Check, CheckOutcome, CheckedNumber, Figure, FigureCurve, Found};
 
 use fem::NODE;
 use fem::sheet::Sheet;
@@ -97,8 +97,8 @@ pub(super) fn each_mass(problem: &Problem) -> Result<Vec<(&'static str, Problem)
 }
 
 /// The energy balance, one per cent at most.
-pub(super) fn balance(residual_share: f64) -> Line {
-    Line::at_most("energy residual over external work", residual_share, 0.01)
+pub(super) fn balance(residual_share: f64) -> CheckedNumber {
+    CheckedNumber::at_most("energy residual over external work", residual_share, 0.01)
 }
 
 pub(super) fn advance(run: &mut Simulation, time_s: f64) -> Result<(), FemError> {

@@ -24,7 +24,7 @@ fn run() -> Found {
         advance(&mut stuck, END_S)?;
         let free_m = 0.5 * GRAVITY * SLOPE.sin() * END_S * END_S;
         let crept = (along_m(&stuck) - start) / free_m;
-        lines.push(Line::at_most(format!("{kind}, sticking: way over free way"), crept, 1e-4));
+        lines.push(CheckedNumber::at_most(format!("{kind}, sticking: way over free way"), crept, 1e-4));
         let mut run = plate(0.3, rigid)?;
         let speed = |run: &Simulation| along(&run.velocities());
         advance(&mut run, RISE_S)?;
@@ -33,11 +33,16 @@ fn run() -> Found {
         advance(&mut run, END_S)?;
         let found = (speed(&run) - before) / (run.time_s() - rise_s);
         let exact = GRAVITY * (SLOPE.sin() - 0.3 * SLOPE.cos());
-        lines.push(Line::value(format!("{kind}, sliding: acceleration [m/s²]"), found, exact, 0.01));
+        lines.push(CheckedNumber::value(format!("{kind}, sliding: acceleration [m/s²]"), found, exact, 0.01));
         let way_m = along_m(&run) - from;
         // Plate of 40 mm by 40 mm by 1 mm.
         let work_mj = 1e3 * 1.6e-3 * GRAVITY * 0.3 * SLOPE.cos() * way_m;
-        lines.push(Line::value(format!("{kind}, lost to friction [mJ]"), 1e3 * (lost_j(&run) - lost), work_mj, 0.01));
+        lines.push(CheckedNumber::value(
+            format!("{kind}, lost to friction [mJ]"),
+            1e3 * (lost_j(&run) - lost),
+            work_mj,
+            0.01,
+        ));
         lines.push(balance(run.ledger().residual_share()));
     }
     Ok(lines.into())

@@ -105,9 +105,9 @@ fn small() -> Found {
     })?;
     let slope = (x[n][2] - x[n - 1][2]).atan2(x[n][0] - x[n - 1][0]);
     Ok(vec![
-        Line::value("tip of the drooping strip, 20 elements [m]", droop[2], exact, 0.01),
-        Line::at_least("rate", rate(droop[1] - exact, droop[2] - exact, 2.0), 1.9),
-        Line::value("tip's turn under an end moment [rad]", slope, turn, 1e-3),
+        CheckedNumber::value("tip of the drooping strip, 20 elements [m]", droop[2], exact, 0.01),
+        CheckedNumber::at_least("rate", rate(droop[1] - exact, droop[2] - exact, 2.0), 1.9),
+        CheckedNumber::value("tip's turn under an end moment [rad]", slope, turn, 1e-3),
     ]
     .into())
 }
@@ -129,10 +129,10 @@ fn large() -> Found {
         curve = bent.iter().map(|x| [1e3 * (x[0] - clamp), 1e3 * x[2]]).collect();
     }
     let lines = vec![
-        Line::value("deflection over length", tip[0], exact.deflection, 0.01),
-        Line::value("shortening over length", tip[1], exact.shortening, 0.01),
-        Line::at_least("rate of the deflection", rate(errors[1][0], errors[2][0], 2.0), 1.8),
-        Line::at_least("rate of the shortening", rate(errors[1][1], errors[2][1], 2.0), 1.8),
+        CheckedNumber::value("deflection over length", tip[0], exact.deflection, 0.01),
+        CheckedNumber::value("shortening over length", tip[1], exact.shortening, 0.01),
+        CheckedNumber::at_least("rate of the deflection", rate(errors[1][0], errors[2][0], 2.0), 1.8),
+        CheckedNumber::at_least("rate of the shortening", rate(errors[1][1], errors[2][1], 2.0), 1.8),
     ];
     let line = elastica::cantilever_line(load, 60).into_iter().map(|x| x.map(|x| 1e3 * LENGTH_M * x));
     let curves = vec![FigureCurve::engine("strip of 40 elements", curve), FigureCurve::exact("elastica", line)];
@@ -164,8 +164,8 @@ fn roll() -> Found {
     let flat = 0.5 * stiffness_nm() / (radius * radius) * 2.0 * chord * (n - 1) as f64 * chord;
     let held: f64 = run.ledger().rows.iter().filter(|r| r.kind == models::RowKind::Stored).map(|r| r.energy_j).sum();
     Ok(vec![
-        Line::value("turn from clamp to tip [rad]", turn, made, 1e-4),
-        Line::at_most("energy left over the flat strip's", held.abs() / flat, 1e-6),
+        CheckedNumber::value("turn from clamp to tip [rad]", turn, made, 1e-4),
+        CheckedNumber::at_most("energy left over the flat strip's", held.abs() / flat, 1e-6),
     ]
     .into())
 }

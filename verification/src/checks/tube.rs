@@ -23,8 +23,8 @@ fn run() -> Found {
         let exact = exact(pressure_pa)?;
         let [hoop, axial] = half_way(pressure_pa)?;
         let kpa = 1e-3 * pressure_pa;
-        lines.push(Line::value(format!("hoop stress at {kpa} kPa [Pa]"), hoop, exact[0], 0.005));
-        lines.push(Line::value(format!("axial stress at {kpa} kPa [Pa]"), axial, exact[1], 0.005));
+        lines.push(CheckedNumber::value(format!("hoop stress at {kpa} kPa [Pa]"), hoop, exact[0], 0.005));
+        lines.push(CheckedNumber::value(format!("axial stress at {kpa} kPa [Pa]"), axial, exact[1], 0.005));
     }
     Ok(lines.into())
 }

@@ -23,7 +23,7 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, SQRT_2};
 
 use super::Known;
-use super::hinge::{BentBody, Lever, axis_point_m, restoring_moment_nm};
+use super::hinge::{BentBody, LeverRule, axis_point_m, restoring_moment_nm};
 use super::solve::falling_root;
 use models::fabrics::shear_modulus;
 
@@ -69,12 +69,12 @@ pub fn free_alpha(muscle: &Fpam, pressure_pa: f64) -> f64 {
 /// Lever of the muscle's force on a body of radius R whose far fibre is the hinge \[m\].
 ///
 /// The muscle is outside the body, axis at d = R + r(α), so a shortening ε Lf turns the body by
-/// `Φ = ε Lf/(R + d)`. [`Lever::VirtualWork`]: `(R + d)/(1 − (ε/ε′) r′/(R + d))` with ε′ = √2 sin α, r′ = √2 r45 cos α.
-pub fn lever_m(muscle: &Fpam, body_radius_m: f64, alpha: f64, rule: Lever) -> f64 {
+/// `Φ = ε Lf/(R + d)`. [`LeverRule::VirtualWork`]: `(R + d)/(1 − (ε/ε′) r′/(R + d))` with ε′ = √2 sin α, r′ = √2 r45 cos α.
+pub fn lever_m(muscle: &Fpam, body_radius_m: f64, alpha: f64, rule: LeverRule) -> f64 {
     let arm = 2.0 * body_radius_m + radius_m(muscle, alpha);
     match rule {
-        Lever::CurrentArm => arm,
-        Lever::VirtualWork => {
+        LeverRule::CurrentArm => arm,
+        LeverRule::VirtualWork => {
             let arm_per_contraction = radius_at_45_m(muscle) / alpha.tan();
             arm / (1.0 - contraction(alpha) * arm_per_contraction / arm)
         }
@@ -84,7 +84,7 @@ pub fn lever_m(muscle: &Fpam, body_radius_m: f64, alpha: f64, rule: Lever) -> f6
 /// Angle α at which the muscle balances a fully wrinkled body: `F(α) ℓ(α) = p π R³`.
 ///
 /// 45° (no bending) where the pressure is too low to move it. Same assumptions as [`super::hinge`].
-pub fn bending_alpha(muscle: &Fpam, body_radius_m: f64, actuator_pa: f64, body_pa: f64, rule: Lever) -> f64 {
+pub fn bending_alpha(muscle: &Fpam, body_radius_m: f64, actuator_pa: f64, body_pa: f64, rule: LeverRule) -> f64 {
     let moment = restoring_moment_nm(body_radius_m, body_pa);
     let excess =
         |alpha: f64| force_n(muscle, alpha, actuator_pa) * lever_m(muscle, body_radius_m, alpha, rule) - moment;
@@ -125,7 +125,7 @@ pub(super) fn known() -> Known {
         .map(|degrees| force_n(&muscle(0.0), degrees.to_radians(), 30e3));
     let free = [1e3, 5e3, 10e3, 20e3, 30e3].map(|p| contraction(free_alpha(&muscle(50.625), p)));
     let limit = contraction(free_alpha(&muscle(0.0), 30e3));
-    let arm = Lever::CurrentArm;
+    let arm = LeverRule::CurrentArm;
     let current = [
         PRESSURES_PA.map(|p| alpha(51.6, p, arm).to_degrees()),
         PRESSURES_PA.map(|p| contraction(alpha(51.6, p, arm))),
@@ -133,7 +133,7 @@ pub(super) fn known() -> Known {
         PRESSURES_PA.map(|p| height_mm(51.6, p, arm)),
         PRESSURES_PA.map(|p| height_mm(0.0, p, arm)),
     ];
-    let work = Lever::VirtualWork;
+    let work = LeverRule::VirtualWork;
     let by_work =
         PRESSURES_PA.map(|p| [alpha(51.6, p, work).to_degrees(), height_mm(51.6, p, work), height_mm(0.0, p, work)]);
     vec![
@@ -175,7 +175,7 @@ mod tests {
     fn virtual_work_lever_makes_the_total_energy_stationary() {
         let total =
             |alpha| energy_j(&MUSCLE, alpha, 20e3) + restoring_moment_nm(0.04, 2e3) * total_angle(&MUSCLE, 0.04, alpha);
-        let at = bending_alpha(&MUSCLE, 0.04, 20e3, 2e3, Lever::VirtualWork);
+        let at = bending_alpha(&MUSCLE, 0.04, 20e3, 2e3, LeverRule::VirtualWork);
         let h = 1e-4;
         assert!(((total(at + h) - total(at - h)) / (2.0 * h)).abs() < 1e-6);
         assert!(total(at) < total(at - h) && total(at) < total(at + h));
@@ -183,7 +183,7 @@ mod tests {
 
     #[test]
     fn too_low_a_pressure_does_not_bend_the_body() {
-        let alpha = bending_alpha(&MUSCLE, 0.04, 100.0, 2e3, Lever::VirtualWork);
+        let alpha = bending_alpha(&MUSCLE, 0.04, 100.0, 2e3, LeverRule::VirtualWork);
         assert!(contraction(alpha).abs() < 1e-14);
     }
 }

@@ -40,7 +40,7 @@ pub enum Arm {
 
 /// Which lever turns the actuator's force into a moment when the arm changes with inflation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Lever {
+pub enum LeverRule {
     /// ℓ = dΔL/dφ from dΠ/dθ = 0. The consistent one.
     VirtualWork,
     /// ℓ = R + d at the current inflation, its change left out. A shortcut, kept to show what it costs.
@@ -91,9 +91,9 @@ pub fn fold_angle(unit: &SeriesUnit, theta: f64) -> f64 {
 }
 
 /// Lever ℓ of the pouch's force at half angle θ \[m\]; both rules agree for [`Arm::Embedded`].
-pub fn lever_m(unit: &SeriesUnit, theta: f64, rule: Lever) -> f64 {
+pub fn lever_m(unit: &SeriesUnit, theta: f64, rule: LeverRule) -> f64 {
     let arm = arm_m(unit, theta);
-    if rule == Lever::CurrentArm || unit.arm == Arm::Embedded {
+    if rule == LeverRule::CurrentArm || unit.arm == Arm::Embedded {
         return arm;
     }
     // d′ = L0 [θ sin θ − (1 − cos θ)]/(2θ²) and ε′ = (sin θ − θ cos θ)/θ²
@@ -102,7 +102,7 @@ pub fn lever_m(unit: &SeriesUnit, theta: f64, rule: Lever) -> f64 {
 }
 
 /// Half angle θ in \[0, π/2\] where `F(θ) ℓ(θ) = p π R³`; η cancels. 0 for P = 0, π/2 for p = 0, NaN for NaN input.
-pub fn equilibrium_theta(unit: &SeriesUnit, actuator_pa: f64, body_pa: f64, rule: Lever) -> f64 {
+pub fn equilibrium_theta(unit: &SeriesUnit, actuator_pa: f64, body_pa: f64, rule: LeverRule) -> f64 {
     let moment = restoring_moment_nm(unit.body_radius_m, body_pa);
     // Times θ, so that the pole of the force at θ = 0 is gone.
     let excess = |theta: f64| theta * (force_n(&unit.pouch, theta, actuator_pa) * lever_m(unit, theta, rule) - moment);
@@ -136,7 +136,7 @@ pub(super) fn known() -> Known {
         1e3 * axis_point_m(&body, 1e-3 * station_mm)[1]
     };
     let theta = |unit: &SeriesUnit, rule, pressure_pa| equilibrium_theta(unit, pressure_pa, BODY_PA, rule);
-    let work = Lever::VirtualWork;
+    let work = LeverRule::VirtualWork;
     let height = |unit: &SeriesUnit, end_factor, rule, count, station_mm, pressure_pa| {
         marker_mm(&SeriesUnit { end_factor, ..*unit }, theta(unit, rule, pressure_pa), count, station_mm)
     };
@@ -150,7 +150,7 @@ pub(super) fn known() -> Known {
     let at_low = [2e3, 5e3].map(|p| embedded(1.0, p));
     let with_edges = [2e3, 5e3, 10e3, 20e3, 30e3].map(|p| embedded(0.62, p));
     let lifts = [0.5, 1.4].map(|theta| 1e3 * (arm_m(&EXTERNAL, theta) - 0.04));
-    let outside = [external(1.0, work), external(0.598504, work), external(1.0, Lever::CurrentArm)];
+    let outside = [external(1.0, work), external(0.598504, work), external(1.0, LeverRule::CurrentArm)];
     vec![
         (
             "hinge model, embedded",
@@ -182,7 +182,7 @@ mod tests {
         for arm in [Arm::Embedded, Arm::External] {
             for actuator_pa in [2e3, 10e3, 30e3] {
                 let unit = unit(arm);
-                let at = equilibrium_theta(&unit, actuator_pa, 2e3, Lever::VirtualWork);
+                let at = equilibrium_theta(&unit, actuator_pa, 2e3, LeverRule::VirtualWork);
                 let energy = |theta| energy_j(&unit, theta, actuator_pa, 2e3);
                 let h = 1e-4;
                 let slope = (energy(at + h) - energy(at - h)) / (2.0 * h);
@@ -195,25 +195,25 @@ mod tests {
     #[test]
     fn only_the_ratio_of_pressures_matters() {
         let unit = unit(Arm::External);
-        let low = equilibrium_theta(&unit, 10e3, 2e3, Lever::VirtualWork);
-        let high = equilibrium_theta(&unit, 40e3, 8e3, Lever::VirtualWork);
+        let low = equilibrium_theta(&unit, 10e3, 2e3, LeverRule::VirtualWork);
+        let high = equilibrium_theta(&unit, 40e3, 8e3, LeverRule::VirtualWork);
         assert!((low - high).abs() < 1e-14);
     }
 
     #[test]
     fn limits_of_no_actuator_pressure_and_no_body_pressure_are_flat_and_round() {
         let unit = unit(Arm::External);
-        assert!(equilibrium_theta(&unit, 0.0, 2e3, Lever::VirtualWork) < 1e-30);
-        assert!((equilibrium_theta(&unit, 1e3, 0.0, Lever::VirtualWork) - FRAC_PI_2).abs() < 1e-12);
-        assert!(equilibrium_theta(&unit, f64::NAN, 2e3, Lever::VirtualWork).is_nan());
+        assert!(equilibrium_theta(&unit, 0.0, 2e3, LeverRule::VirtualWork) < 1e-30);
+        assert!((equilibrium_theta(&unit, 1e3, 0.0, LeverRule::VirtualWork) - FRAC_PI_2).abs() < 1e-12);
+        assert!(equilibrium_theta(&unit, f64::NAN, 2e3, LeverRule::VirtualWork).is_nan());
     }
 
     #[test]
     fn the_shortcut_lever_underpredicts_bending_of_an_external_pouch() {
         let unit = unit(Arm::External);
         for actuator_pa in [10e3, 20e3, 30e3] {
-            let full = equilibrium_theta(&unit, actuator_pa, 2e3, Lever::VirtualWork);
-            assert!(equilibrium_theta(&unit, actuator_pa, 2e3, Lever::CurrentArm) < full);
+            let full = equilibrium_theta(&unit, actuator_pa, 2e3, LeverRule::VirtualWork);
+            assert!(equilibrium_theta(&unit, actuator_pa, 2e3, LeverRule::CurrentArm) < full);
         }
     }
 

@@ -17,7 +17,7 @@ use super::Known;
 
 /// How the sides of the sheet are held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Sides {
+pub enum SideSupport {
     /// Free to shrink, so that the pull is uniaxial.
     Free,
     /// Kept at their length (pure shear).
@@ -27,18 +27,19 @@ pub enum Sides {
 }
 
 /// Tension per unstressed width at a stretch \[N/m\].
-pub fn tension_n_per_m(c10_t: f64, stretch: f64, sides: Sides) -> f64 {
+pub fn tension_n_per_m(c10_t: f64, stretch: f64, sides: SideSupport) -> f64 {
     let power = match sides {
-        Sides::Free => -2,
-        Sides::Kept => -3,
-        Sides::Pulled => -5,
+        SideSupport::Free => -2,
+        SideSupport::Kept => -3,
+        SideSupport::Pulled => -5,
     };
     2.0 * c10_t * (stretch - stretch.powi(power))
 }
 
 /// See `known.txt`; C10 t = 1 N/m.
 pub(super) fn known() -> Known {
-    let pulls = [Sides::Free, Sides::Kept, Sides::Pulled].map(|sides| tension_n_per_m(1.0, 2.0, sides));
+    let pulls =
+        [SideSupport::Free, SideSupport::Kept, SideSupport::Pulled].map(|sides| tension_n_per_m(1.0, 2.0, sides));
     vec![("neo-Hookean sheet", pulls.to_vec())]
 }
 
@@ -53,11 +54,13 @@ mod tests {
         let law = NeoHookean::new(c10_pa, thickness_m);
         let green = |stretch: f64| 0.5 * (stretch * stretch - 1.0);
         for stretch in [0.9, 1.05, 1.4_f64] {
-            for (sides, across) in [(Sides::Free, stretch.powf(-0.5)), (Sides::Kept, 1.0), (Sides::Pulled, stretch)] {
+            for (sides, across) in
+                [(SideSupport::Free, stretch.powf(-0.5)), (SideSupport::Kept, 1.0), (SideSupport::Pulled, stretch)]
+            {
                 let s = law.tension([green(stretch), green(across), 0.0], &[0.0; 2]);
                 let pull = tension_n_per_m(c10_pa * thickness_m, stretch, sides);
                 assert!((stretch * s[0] - pull).abs() < 1e-9 * c10_pa * thickness_m, "{sides:?}");
-                assert!(sides != Sides::Free || s[1].abs() < 1e-9 * c10_pa * thickness_m);
+                assert!(sides != SideSupport::Free || s[1].abs() < 1e-9 * c10_pa * thickness_m);
             }
         }
     }

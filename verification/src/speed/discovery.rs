@@ -1,7 +1,7 @@
 //! How often a diagnosis is right, on data whose hidden effects follow other laws.
 
 use crate::{Error, Findings, Printed};
-use challenge::bench::{Answer, Attainable, Bench, Confusion, Discovery, DiscoveryOptions, Goal, Rate};
+use challenge::bench::{Answer, Attainable, Confusion, Discovery, DiscoveryOptions, Goal, PlannedBench, Rate};
 use challenge::truth::{ROBOTS, standard_protocol};
 use challenge::{Draw, Truth};
 use compare::Evidence;
@@ -23,19 +23,19 @@ const ENOUGH: f64 = 16.0;
 
 /// The bench, and where its answers are kept.
 #[derive(Debug)]
-pub struct Work {
-    bench: Bench,
+pub struct DiscoveryWork {
+    bench: PlannedBench,
     /// A file for each piece; none where nothing is kept.
     files: Vec<PathBuf>,
 }
 
-impl Work {
+impl DiscoveryWork {
     /// Plans a bench. With a folder, it keeps the answers there under the fingerprint of the program: another program may answer otherwise.
     ///
     /// # Errors
     /// A shipped scenario is damaged; a folder that cannot be made.
-    pub fn plan(options: DiscoveryOptions, kept: Option<(&Path, &str)>) -> Result<Work, Error> {
-        let bench = Bench::plan(options)?;
+    pub fn plan(options: DiscoveryOptions, kept: Option<(&Path, &str)>) -> Result<DiscoveryWork, Error> {
+        let bench = PlannedBench::plan(options)?;
         let files = match kept {
             Some((folder, program)) => {
                 let folder = folder.join("answers");
@@ -45,7 +45,7 @@ impl Work {
             }
             None => Vec::new(),
         };
-        Ok(Work { bench, files })
+        Ok(DiscoveryWork { bench, files })
     }
 
     /// How many pieces the whole bench has.

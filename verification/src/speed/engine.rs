@@ -23,7 +23,7 @@ const TURN_STEPS: u64 = 192;
 const WHOLE_RUNS: usize = 5;
 const STRETCHES: usize = 40;
 
-struct Figure {
+struct EngineFigure {
     what: String,
     elements: usize,
     unit: &'static str,
@@ -34,11 +34,17 @@ struct Figure {
     residual: f64,
 }
 
-impl Figure {
-    fn new(what: &str, run: &Simulation, unit: &'static str, mut values: Vec<f64>, wanted: Option<Against>) -> Figure {
+impl EngineFigure {
+    fn new(
+        what: &str,
+        run: &Simulation,
+        unit: &'static str,
+        mut values: Vec<f64>,
+        wanted: Option<Against>,
+    ) -> EngineFigure {
         values.sort_by(f64::total_cmp);
         let (elements, residual) = (run.elements(), run.ledger().residual_share());
-        Figure { what: what.to_owned(), elements, unit, values, wanted, residual }
+        EngineFigure { what: what.to_owned(), elements, unit, values, wanted, residual }
     }
 
     fn median(&self) -> f64 {
@@ -90,7 +96,7 @@ pub fn measure(all: bool, machine: &str, progress: &mut Progress) -> Result<Find
     // First: later it would get the room that others gave back, and not grow.
     let memory = memory()?;
     progress("against a plain loop", None);
-    let mut figures: Vec<Figure> = against_plain()?.into();
+    let mut figures: Vec<EngineFigure> = against_plain()?.into();
     progress("two threads", None);
     figures.push(two_threads()?);
     figures.extend(rates(progress)?);
@@ -106,13 +112,13 @@ pub fn measure(all: bool, machine: &str, progress: &mut Progress) -> Result<Find
     Ok(report(&figures, machine))
 }
 
-fn report(figures: &[Figure], machine: &str) -> Findings {
+fn report(figures: &[EngineFigure], machine: &str) -> Findings {
     let head = &["what", "quads", "median (range)", "target", "met", "energy residual"];
-    let list: Vec<_> = figures.iter().map(Figure::json).collect();
+    let list: Vec<_> = figures.iter().map(EngineFigure::json).collect();
     Findings {
         parts: vec![
             Printed::Text(format!("Finite elements on {machine}\n")),
-            Printed::table(head, 1, figures.iter().map(Figure::row)),
+            Printed::table(head, 1, figures.iter().map(EngineFigure::row)),
         ],
         json: json!({"schema": "ibr.bench.fem", "version": 2, "machine": machine, "figures": list}),
         missed: figures.iter().any(|f| f.met() == Some(false)),
@@ -130,7 +136,7 @@ fn pillow(n: usize, bending: bool, threads: usize) -> Result<Simulation, Error> 
 
 /// Processor time per step, and per simulated second, of a pillow with bending and ledger relative to a plain loop over
 /// membrane triangles on the same nodes.
-fn against_plain() -> Result<[Figure; 2], Error> {
+fn against_plain() -> Result<[EngineFigure; 2], Error> {
     let mut plain = Membrane::new(&speed::pillow(72, true)?);
     let mut run = pillow(72, true, 1)?;
     let (mut per_step, mut per_time) = (Vec::new(), Vec::new());
@@ -150,14 +156,14 @@ fn against_plain() -> Result<[Figure; 2], Error> {
     let of = format!("pillow with bending against {} plain membrane triangles", plain.triangles());
     let wanted = Some(Against::AtMost(0.6));
     Ok([
-        Figure::new(&format!("{of}, CPU per step"), &run, "times", per_step, wanted),
-        Figure::new("the same, CPU per simulated second", &run, "times", per_time, Some(Against::AtMost(0.45))),
+        EngineFigure::new(&format!("{of}, CPU per step"), &run, "times", per_step, wanted),
+        EngineFigure::new("the same, CPU per simulated second", &run, "times", per_time, Some(Against::AtMost(0.45))),
     ])
 }
 
 /// Speed of one run on two threads relative to two simultaneous runs of one thread each, which get all that the two
 /// cores give at that moment.
-fn two_threads() -> Result<Figure, Error> {
+fn two_threads() -> Result<EngineFigure, Error> {
     let (mut one, mut other, mut two) = (pillow(100, true, 1)?, pillow(100, true, 1)?, pillow(100, true, 2)?);
     let mut ratios = Vec::new();
     for _ in 0..REPEATS {
@@ -177,12 +183,12 @@ fn two_threads() -> Result<Figure, Error> {
         ratios.push(best[1] / best[0]);
     }
     let what = "two threads against two simultaneous runs of one thread";
-    Ok(Figure::new(what, &two, "times", ratios, Some(Against::AtLeast(0.93))))
+    Ok(EngineFigure::new(what, &two, "times", ratios, Some(Against::AtLeast(0.93))))
 }
 
 /// Element-steps per CPU-second with contact (folded, blown up, at rest) relative to a pillow with bending; these
 /// rates, and the rate of membranes alone. They alternate stretch by stretch, one ratio per whole run.
-fn rates(progress: &mut Progress) -> Result<Vec<Figure>, Error> {
+fn rates(progress: &mut Progress) -> Result<Vec<EngineFigure>, Error> {
     let problem = speed::folded_cpam(2e-3, true)?;
     let mut touching = Simulation::new(&problem)?;
     let (mut membrane, mut bending) = (pillow(100, false, 1)?, pillow(100, true, 1)?);
@@ -212,41 +218,41 @@ fn rates(progress: &mut Progress) -> Result<Vec<Figure>, Error> {
     let [shells, bent, touched] = rates;
     let unit = "M element-steps/CPU-s";
     Ok(vec![
-        Figure::new(
+        EngineFigure::new(
             "folded cPAM with contact against bending",
             &touching,
             "times",
             ratios,
             Some(Against::AtLeast(0.6)),
         ),
-        Figure::new("membrane only", &membrane, unit, shells, None),
-        Figure::new("membrane + bending", &bending, unit, bent, None),
-        Figure::new("membrane + bending + contact, folded cPAM", &touching, unit, touched, None),
+        EngineFigure::new("membrane only", &membrane, unit, shells, None),
+        EngineFigure::new("membrane + bending", &bending, unit, bent, None),
+        EngineFigure::new("membrane + bending + contact, folded cPAM", &touching, unit, touched, None),
     ])
 }
 
 /// Growth of the resident memory by a run, per element.
-fn memory() -> Result<Figure, Error> {
+fn memory() -> Result<EngineFigure, Error> {
     let problem = speed::pillow(150, true)?;
     let before = resident_bytes();
     let mut run = Simulation::new(&problem)?;
     speed::advance_by(&mut run, 300)?;
     let grown = vec![(resident_bytes() - before) / run.elements() as f64];
-    Ok(Figure::new("memory of a run", &run, "bytes per element", grown, Some(Against::AtMost(1000.0))))
+    Ok(EngineFigure::new("memory of a run", &run, "bytes per element", grown, Some(Against::AtMost(1000.0))))
 }
 
 /// CPU-seconds of the whole pillow run to 0.15 s, preparation and ledger included.
-fn whole_run(n: usize, name: &str) -> Result<Figure, Error> {
+fn whole_run(n: usize, name: &str) -> Result<EngineFigure, Error> {
     let start = process_seconds();
     let problem = speed::pillow(n, true)?;
     let mut run = Simulation::new(&problem)?;
     run.advance_until(problem.settings.end_s, &mut |_| true)?;
     let what = format!("pillow to 0.15 s, nodes of {name} triangles");
-    Ok(Figure::new(&what, &run, "CPU-s", vec![process_seconds() - start], None))
+    Ok(EngineFigure::new(&what, &run, "CPU-s", vec![process_seconds() - start], None))
 }
 
 /// Seconds on two threads of one ramp to 30 kPa with elements of 4 mm everywhere.
-fn robot(name: &str) -> Result<Figure, Error> {
+fn robot(name: &str) -> Result<EngineFigure, Error> {
     let settings = RobotSettings { body_size_m: 4e-3, actuator_size_m: 4e-3, ..RobotSettings::compressed() };
     let mut problem = fem::robot::shipped(name, &settings)?.1;
     problem.settings.threads = 2;
@@ -254,5 +260,5 @@ fn robot(name: &str) -> Result<Figure, Error> {
     let mut run = Simulation::new(&problem)?;
     run.advance_until(problem.settings.end_s, &mut |_| true)?;
     let what = format!("robot {name} to 30 kPa, 4 mm, two threads");
-    Ok(Figure::new(&what, &run, "s", vec![start.elapsed().as_secs_f64()], None))
+    Ok(EngineFigure::new(&what, &run, "s", vec![start.elapsed().as_secs_f64()], None))
 }

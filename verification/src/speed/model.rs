@@ -16,7 +16,7 @@ const BATCH: usize = 10_000;
 /// Largest cost of the mechanics, relative to the textbook model in the same run.
 const TARGET_RATIO: f64 = 1.5;
 
-struct Figure {
+struct CallTime {
     id: String,
     /// Textbook model, and the robot as it ships \[µs\].
     median_us: [f64; 2],
@@ -25,7 +25,7 @@ struct Figure {
     compared: bool,
 }
 
-impl Figure {
+impl CallTime {
     fn ratio(&self) -> f64 {
         self.median_us[1] / self.median_us[0]
     }
@@ -52,7 +52,7 @@ impl Figure {
 
 /// `ibr.bench`: `ibr bench`
 #[derive(Serialize)]
-struct BenchAnswer<'a> {
+struct SpeedAnswer<'a> {
     /// Processor, number of cores and operating system.
     machine: &'a str,
     /// Times of the calls of every robot.
@@ -88,14 +88,14 @@ pub fn measure(machine: &str, progress: &mut Progress) -> Result<Findings, Error
         figures.extend(of_kind(kind)?);
     }
     let head = &["what", "textbook [µs]", "target [µs]", "shipped [µs]", "ratio", "target", "met"];
-    let answer = BenchAnswer { machine, figures: figures.iter().map(Figure::told).collect() };
+    let answer = SpeedAnswer { machine, figures: figures.iter().map(CallTime::told).collect() };
     Ok(Findings {
         parts: vec![
             Printed::Text(format!("Median time on one core of {machine}\n")),
-            Printed::table(head, 1, figures.iter().map(Figure::row)),
+            Printed::table(head, 1, figures.iter().map(CallTime::row)),
         ],
         json: RecordShape { schema: "ibr.bench", version: 2 }.stamped(&answer),
-        missed: !figures.iter().all(Figure::met),
+        missed: !figures.iter().all(CallTime::met),
     })
 }
 
@@ -110,14 +110,14 @@ const TIMED: [(&str, f64, bool, usize, usize); 4] = [
     ("inverse", 10.0, true, 50, 1),
 ];
 
-fn of_kind(kind: &str) -> Result<Vec<Figure>, Error> {
+fn of_kind(kind: &str) -> Result<Vec<CallTime>, Error> {
     let mut textbook = calls(&shipped_scenario(&format!("{kind}-textbook"))?)?;
     let mut shipped = calls(&shipped_scenario(kind)?)?;
     let pairs = TIMED.iter().zip(textbook.iter_mut().zip(&mut shipped));
     pairs
         .map(|(&(what, wanted_us, compared, calls, each), (a, b))| {
             let median_us = medians(calls, [a, b])?.map(|us| us / each as f64);
-            Ok(Figure { id: format!("{what}/{kind}"), median_us, wanted_us, compared })
+            Ok(CallTime { id: format!("{what}/{kind}"), median_us, wanted_us, compared })
         })
         .collect()
 }

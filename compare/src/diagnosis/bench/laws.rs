@@ -6,7 +6,7 @@ use data::Bench;
 use models::Scenario;
 use models::effects::{Effect, Fitted, Group, Stage};
 
-struct Number {
+struct BenchNumber {
     /// Kind of bench table in which the number acts.
     table: &'static str,
     name: &'static str,
@@ -25,8 +25,8 @@ struct Number {
 }
 
 /// The list: one entry a number. Bounds equal the bounds of a scenario's keys, as far as fabrics reach.
-const NUMBERS: &[Number] = &[
-    Number {
+const NUMBERS: &[BenchNumber] = &[
+    BenchNumber {
         table: "load_deflection",
         name: "wall_stiffness",
         key: "wall_stiffness_n_per_m",
@@ -45,7 +45,7 @@ const NUMBERS: &[Number] = &[
         given: |s| s.wall.stiffness_n_per_m,
         set: |trial, v| trial.scenario.wall.stiffness_n_per_m = Some(v),
     },
-    Number {
+    BenchNumber {
         table: "load_deflection",
         name: "wall_shear",
         key: "wall_shear_n_per_m",
@@ -64,7 +64,7 @@ const NUMBERS: &[Number] = &[
         given: |s| s.wall.shear_n_per_m,
         set: |trial, v| trial.scenario.wall.shear_n_per_m = Some(v),
     },
-    Number {
+    BenchNumber {
         table: "load_deflection",
         name: "bending_stiffness",
         key: "bending_stiffness_nm2",
@@ -83,7 +83,7 @@ const NUMBERS: &[Number] = &[
         given: |s| (s.bending_stiffness > 0.0).then_some(s.bending_stiffness),
         set: |trial, v| trial.scenario.bending_stiffness = v,
     },
-    Number {
+    BenchNumber {
         table: "force_contraction",
         name: "bias_angle",
         key: "bias_deg",
@@ -117,7 +117,7 @@ pub(super) fn starts(law: &Candidate) -> Vec<Vec<f64>> {
 
 /// The trial with a law at these values, SI.
 pub(super) fn apply(law: &Candidate, trial: &mut Trial, values: &[f64]) {
-    let is_own = |number: &&Number| law.name == number.name && law.parameters[0].key == number.key;
+    let is_own = |number: &&BenchNumber| law.name == number.name && law.parameters[0].key == number.key;
     match NUMBERS.iter().find(is_own) {
         Some(number) => (number.set)(trial, values[0]),
         None => trial.scenario = law.apply(&trial.scenario, values),
@@ -164,7 +164,7 @@ pub(super) fn laws(bench: &Bench, scenario: &Scenario, refit: bool) -> (Vec<Cand
     (laws, always)
 }
 
-impl Number {
+impl BenchNumber {
     fn candidate(&self, given: Option<f64>) -> Candidate {
         let starts = self.starts.iter().map(|v| v * self.si).chain(given);
         let free = Free {

@@ -30,7 +30,7 @@ use crate::policy;
 use crate::stats::{chi2_tail, reported_p};
 use data::Bench;
 use models::Scenario;
-use table::{Fit, Table};
+use table::{BenchFit, BenchProblem};
 
 /// Diagnoses a table of bench tests.
 ///
@@ -41,12 +41,12 @@ pub fn diagnose_bench(
     scenario: Option<&Scenario>,
     options: &BenchOptions,
 ) -> Result<BenchDiagnosis, CompareError> {
-    let mut table = Table::new(bench, scenario, options)?;
+    let mut table = BenchProblem::new(bench, scenario, options)?;
     let Some(base) = table.fit(None, None) else {
         let help = "look for a contraction beyond the muscle's range";
         return refuse(bench, "the model has no answer to a row of it", help);
     };
-    let laws: Vec<Fit> = table.tried_laws().filter_map(|law| table.fit(Some(law), Some(&base))).collect();
+    let laws: Vec<BenchFit> = table.tried_laws().filter_map(|law| table.fit(Some(law), Some(&base))).collect();
     let mut all = vec![base];
     all.extend(laws);
     table.take_for_noise(&mut all);
@@ -56,11 +56,11 @@ pub fn diagnose_bench(
     let allowance = order::allowance(gains.fold(0.0, f64::max));
     // Typical sizes of the catalogue are typical of robots: on a bench they do not count.
     let rows = table.readings.len();
-    let c = |fit: &Fit| order::criterion_from(rows, fit.minimum.cost, fit.free - base.free, allowance);
+    let c = |fit: &BenchFit| order::criterion_from(rows, fit.minimum.cost, fit.free - base.free, allowance);
     sort_by(laws, c);
-    let is_acceptable = |fit: &&Fit| !fit.is_rejected() && policy::helps(fit.gain_over(base));
+    let is_acceptable = |fit: &&BenchFit| !fit.is_rejected() && policy::helps(fit.gain_over(base));
     let best = laws.iter().find(is_acceptable);
-    let is_in_set = |fit: &Fit| is_acceptable(&fit) && best.is_some_and(|best| policy::is_alike(c(fit), c(best)));
+    let is_in_set = |fit: &BenchFit| is_acceptable(&fit) && best.is_some_and(|best| policy::is_alike(c(fit), c(best)));
     let in_set: Vec<bool> = laws.iter().map(is_in_set).collect();
     let (verdict, p_value, explains) = judge(&table, base, best, options.alpha);
     let noise = || mean(table.readings.iter().filter_map(|r| r.noise()).map(|share| share * share)).sqrt().exp_m1();
@@ -98,8 +98,13 @@ pub fn diagnose_bench(
 }
 
 /// Verdict, its p, and whether the best law explains the table.
-fn judge(table: &Table, base: &Fit, best: Option<&Fit>, alpha: f64) -> (Option<Verdict>, Option<f64>, bool) {
-    let lack = |fit: &Fit| chi2_tail(fit.minimum.cost, table.readings.len().saturating_sub(fit.free));
+fn judge(
+    table: &BenchProblem,
+    base: &BenchFit,
+    best: Option<&BenchFit>,
+    alpha: f64,
+) -> (Option<Verdict>, Option<f64>, bool) {
+    let lack = |fit: &BenchFit| chi2_tail(fit.minimum.cost, table.readings.len().saturating_sub(fit.free));
     let before = base.rms_off().ln_1p().max(f64::MIN_POSITIVE);
     let little = best.map_or(1.0, |fit| fit.rms_off().ln_1p() / before) <= policy::LEFT_BY_ONE;
     if !table.known {
@@ -116,12 +121,17 @@ fn judge(table: &Table, base: &Fit, best: Option<&Fit>, alpha: f64) -> (Option<V
     (Some(verdict), Some(reported_p(p)), explains && verdict == Verdict::Effect)
 }
 
-fn p_of(table: &Table, base: &Fit, fit: &Fit) -> f64 {
+fn p_of(table: &BenchProblem, base: &BenchFit, fit: &BenchFit) -> f64 {
     let tests = table.tried_laws().count() as f64;
     (tests * chi2_tail(fit.gain_over(base), fit.free - base.free)).min(1.0)
 }
 
-fn ranked(table: &Table, base: &Fit, (fit, in_set): (&Fit, bool), left_out: Vec<LeftOut>) -> BenchRanked {
+fn ranked(
+    table: &BenchProblem,
+    base: &BenchFit,
+    (fit, in_set): (&BenchFit, bool),
+    left_out: Vec<LeftOut>,
+) -> BenchRanked {
     let candidate = &table.laws[fit.law.unwrap_or_default()];
     let mut values = table.values(fit);
     BenchRanked {
@@ -144,7 +154,7 @@ fn ranked(table: &Table, base: &Fit, (fit, in_set): (&Fit, bool), left_out: Vec<
 const LOAD_PARTS: usize = 5;
 
 /// Of every fit, its errors at what was left out, one for every way to leave something out.
-fn left_out(table: &Table, fits: &[Fit]) -> Vec<Vec<LeftOut>> {
+fn left_out(table: &BenchProblem, fits: &[BenchFit]) -> Vec<Vec<LeftOut>> {
     let pressures = groups(&table.readings, |a, b| a.pressure_pa.to_bits() == b.pressure_pa.to_bits());
     let mut ways =
         vec![("pressure", pressures), ("specimen", groups(&table.readings, |a, b| a.specimen == b.specimen))];

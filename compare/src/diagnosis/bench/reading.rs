@@ -4,7 +4,7 @@ use super::scatter::steadied;
 use crate::bench::{Trial, is_free, measured, place};
 use data::bench::BenchRow;
 
-pub(super) struct Reading<'a> {
+pub(super) struct BenchReading<'a> {
     pub row: &'a BenchRow,
     pub measured: f64,
     pub small: f64,
@@ -19,7 +19,7 @@ pub(super) struct Reading<'a> {
     pub at: String,
 }
 
-impl<'a> Reading<'a> {
+impl<'a> BenchReading<'a> {
     /// Error d = asinh(model/small) − asinh(measured/small).
     pub(super) fn off(&self, model: f64) -> f64 {
         (model / self.small).asinh() - (self.measured / self.small).asinh()
@@ -30,7 +30,7 @@ impl<'a> Reading<'a> {
         Some(if dof.is_finite() { error / self.measured.hypot(self.small) } else { error })
     }
 
-    pub(super) fn new(row: &'a BenchRow, trial: &Trial, small: f64, sigma: Option<f64>) -> Reading<'a> {
+    pub(super) fn new(row: &'a BenchRow, trial: &Trial, small: f64, sigma: Option<f64>) -> BenchReading<'a> {
         let beam = row.get("load").is_some();
         let sized = trial.specimen(row).unwrap_or_else(|_| trial.scenario.clone());
         let sd = row.get(if beam { "deflection_sd" } else { "force_sd" }).filter(|_| !is_free(row));
@@ -39,7 +39,7 @@ impl<'a> Reading<'a> {
         let size = |key| row.get(key).map_or(String::new(), |v| format!("{:.0} mm ", 1e3 * v));
         let number = row.get("muscle").map_or(String::new(), |n| format!("muscle {n} "));
         let words = if beam { size("radius") } else { format!("{number}{}{}", size("diameter"), size("length")) };
-        Reading {
+        BenchReading {
             measured: measured(row),
             small,
             error: told.or(sigma.map(|s| [s, f64::INFINITY])),
@@ -53,8 +53,9 @@ impl<'a> Reading<'a> {
 }
 
 /// Standard errors of rows of one kind, each steadied by the others.
-pub(super) fn steady<'r, 'a: 'r>(readings: impl Iterator<Item = &'r mut Reading<'a>>) {
-    let mut told: Vec<&mut Reading> = readings.filter(|r| r.error.is_some_and(|[_, dof]| dof.is_finite())).collect();
+pub(super) fn steady<'r, 'a: 'r>(readings: impl Iterator<Item = &'r mut BenchReading<'a>>) {
+    let mut told: Vec<&mut BenchReading> =
+        readings.filter(|r| r.error.is_some_and(|[_, dof]| dof.is_finite())).collect();
     let rows: Vec<[f64; 3]> = told
         .iter()
         .filter_map(|r| r.error.map(|[error, dof]| [error * (dof + 1.0).sqrt(), dof, r.measured.hypot(r.small)]))

@@ -1,8 +1,8 @@
 //! The diagnosis of a table in sentences, and where a model fails.
 
-use super::reading::Reading;
+use super::reading::BenchReading;
 use super::result::{BenchDiagnosis, BenchRanked, LeftOut};
-use super::table::{Fit, Table};
+use super::table::{BenchFit, BenchProblem};
 use crate::bench::is_free;
 use crate::diagnosis::result::Verdict;
 use crate::diagnosis::result::words::{quantity, with_interval};
@@ -106,7 +106,7 @@ fn holds(before: &LeftOut, after: &LeftOut, effect: &str) -> String {
 }
 
 /// Where errors d ([`super::table`]) are: on the whole, by load, pressure and specimen, and the largest.
-pub(super) fn places(table: &Table, fit: &Fit) -> Vec<String> {
+pub(super) fn places(table: &BenchProblem, fit: &BenchFit) -> Vec<String> {
     let off = &fit.off[..];
     let beam = table.readings[0].row.get("load").is_some();
     let free = table.readings.iter().any(|r| is_free(r.row));
@@ -155,7 +155,12 @@ fn told(off: &[f64], levels: &[(String, Vec<usize>)]) -> Option<String> {
         .then(|| format!("{} ({:.0} % of the scatter about the mean)", list(words), 100.0 * share))
 }
 
-fn by_level(table: &Table, off: &[f64], of: &dyn Fn(&Reading) -> f64, word: &dyn Fn(f64) -> String) -> Option<String> {
+fn by_level(
+    table: &BenchProblem,
+    off: &[f64],
+    of: &dyn Fn(&BenchReading) -> f64,
+    word: &dyn Fn(f64) -> String,
+) -> Option<String> {
     let values: Vec<f64> = table.readings.iter().map(of).collect();
     let mut order: Vec<usize> = (0..values.len()).collect();
     sort_by(&mut order, |i| values[*i]);
@@ -172,7 +177,7 @@ fn by_level(table: &Table, off: &[f64], of: &dyn Fn(&Reading) -> f64, word: &dyn
     told(off, &parts.into_iter().map(|rows| (label(&rows), rows)).collect::<Vec<_>>())
 }
 
-fn by_specimen(table: &Table, off: &[f64]) -> Option<String> {
+fn by_specimen(table: &BenchProblem, off: &[f64]) -> Option<String> {
     let parts = groups(&table.readings, |a, b| a.specimen == b.specimen);
     let label = |rows: &Vec<usize>| match table.readings[rows[0]].specimen.as_str() {
         "" => "the one without a size".to_string(),

@@ -9,15 +9,15 @@
 //! the best explanation leaves: differences are then ordered, and no p-value is formed.
 
 use super::laws::{apply, laws, starts};
-use super::reading::{Reading, steady};
+use super::reading::{BenchReading, steady};
 use super::result::BenchOptions;
 use crate::CompareError;
 use crate::bench::{ANY_WIDTH_M, Trial, is_beam, is_free, measured, modelled, own_or_braid, refuse};
 use crate::diagnosis::candidates::{Candidate, Free};
 use crate::diagnosis::problem::is_binding;
 use crate::diagnosis::result::ParameterValue;
-use crate::fit::interval::{Half, misfit, of_parameter, weights};
-use crate::fit::least_squares::{Minimum, Range, minimise, square};
+use crate::fit::interval::{HalfWidth, misfit, of_parameter, weights};
+use crate::fit::least_squares::{FitRange, Minimum, minimise, square};
 use crate::fit::numbers::{groups, least, mean};
 use crate::policy;
 use crate::stats::{normal_score, t_975};
@@ -37,8 +37,8 @@ const STARTS: usize = 3;
 /// Segments of a beam, at most: its deflection is then within a thousandth.
 const SEGMENTS: usize = 60;
 
-pub(super) struct Table<'a> {
-    pub readings: Vec<Reading<'a>>,
+pub(super) struct BenchProblem<'a> {
+    pub readings: Vec<BenchReading<'a>>,
     pub laws: Vec<Candidate>,
     /// Laws that are fitted along with every other.
     always: Vec<usize>,
@@ -51,7 +51,7 @@ pub(super) struct Table<'a> {
     sigma: f64,
 }
 
-pub(super) struct Fit {
+pub(super) struct BenchFit {
     pub law: Option<usize>,
     pub minimum: Minimum,
     binding: Vec<bool>,
@@ -61,13 +61,13 @@ pub(super) struct Fit {
     pub off: Vec<f64>,
 }
 
-impl Fit {
+impl BenchFit {
     pub(super) fn is_rejected(&self) -> bool {
         self.binding.contains(&true)
     }
 
     /// Fall of the whitened sum of squares.
-    pub(super) fn gain_over(&self, base: &Fit) -> f64 {
+    pub(super) fn gain_over(&self, base: &BenchFit) -> f64 {
         base.minimum.cost - self.minimum.cost
     }
 
@@ -80,12 +80,12 @@ impl Fit {
     }
 }
 
-impl<'a> Table<'a> {
+impl<'a> BenchProblem<'a> {
     pub(super) fn new(
         bench: &'a Bench,
         scenario: Option<&Scenario>,
         options: &BenchOptions,
-    ) -> Result<Table<'a>, CompareError> {
+    ) -> Result<BenchProblem<'a>, CompareError> {
         is_beam(bench)?;
         let scenario = own_or_braid(bench, scenario)?;
         let scenario = Scenario { segments: scenario.segments.min(SEGMENTS), ..scenario };
@@ -95,13 +95,13 @@ impl<'a> Table<'a> {
             let own = bench.rows.iter().filter(|row| is_free(row) == free);
             LEAST_SHARE * own.map(|row| measured(row).abs()).fold(f64::MIN_POSITIVE, f64::max)
         });
-        let reading = |row| Reading::new(row, &trial, small[usize::from(is_free(row))], options.sigma);
-        let mut readings: Vec<Reading> = bench.rows.iter().map(reading).collect();
+        let reading = |row| BenchReading::new(row, &trial, small[usize::from(is_free(row))], options.sigma);
+        let mut readings: Vec<BenchReading> = bench.rows.iter().map(reading).collect();
         for free in [false, true] {
             steady(readings.iter_mut().filter(|r| is_free(r.row) == free));
         }
         let known = readings.iter().all(|r| r.error.is_some());
-        let mut table = Table { readings, laws, always, trial, unsized_laws: Vec::new(), known, sigma: 0.01 };
+        let mut table = BenchProblem { readings, laws, always, trial, unsized_laws: Vec::new(), known, sigma: 0.01 };
         table.check(bench)?;
         let base = table.starts().into_iter().next().unwrap_or_default();
         let before = table.predicted(None, &base);
@@ -183,7 +183,7 @@ impl<'a> Table<'a> {
     }
 
     fn predicted_by(&self, trial: &Trial) -> Option<Vec<f64>> {
-        let of = |r: &Reading| {
+        let of = |r: &BenchReading| {
             let specimen = trial.specimen(r.row).ok()?;
             // A beam that has folded hangs from its clamp.
             modelled(r.row, &specimen).or(r.row.get("load").map(|_| specimen.length_m)).filter(|v| v.is_finite())
@@ -197,7 +197,7 @@ impl<'a> Table<'a> {
     }
 
     fn residuals(&self, law: Option<usize>, theta: &[f64]) -> Option<Vec<f64>> {
-        let of = |(r, f): (&Reading, f64)| match r.error.filter(|_| self.known) {
+        let of = |(r, f): (&BenchReading, f64)| match r.error.filter(|_| self.known) {
             Some([error, dof]) if dof.is_finite() => normal_score((f - r.measured) / error, dof),
             Some([sigma, _]) => r.off(f) / sigma,
             None => r.off(f) / self.sigma,
@@ -205,7 +205,7 @@ impl<'a> Table<'a> {
         Some(self.readings.iter().zip(self.predicted(law, theta)?).map(of).collect())
     }
 
-    fn ranges(&self, law: Option<usize>) -> Vec<Range> {
+    fn ranges(&self, law: Option<usize>) -> Vec<FitRange> {
         self.parameters(law).map(Free::range).collect()
     }
 
@@ -217,7 +217,7 @@ impl<'a> Table<'a> {
     }
 
     /// The best fit from several starts; from the base's own values where there is a base.
-    pub(super) fn fit(&self, law: Option<usize>, base: Option<&Fit>) -> Option<Fit> {
+    pub(super) fn fit(&self, law: Option<usize>, base: Option<&BenchFit>) -> Option<BenchFit> {
         let mut starts = match (base, law) {
             (Some(base), Some(i)) => {
                 starts(&self.laws[i]).into_iter().map(|own| [base.minimum.at.as_slice(), &own].concat()).collect()
@@ -231,7 +231,7 @@ impl<'a> Table<'a> {
         let is_binding = |(k, p): (usize, &Free)| p.range().is_free() && is_binding(&minimum, k, &p.range(), p.neutral);
         let binding = self.parameters(law).enumerate().map(is_binding).collect();
         let free = self.parameters(law).filter(|p| p.is_free()).count();
-        Some(Fit { law, binding, free, off: self.off(law, &minimum.at)?, minimum })
+        Some(BenchFit { law, binding, free, off: self.off(law, &minimum.at)?, minimum })
     }
 
     /// The minimum that is reached from a start, on all rows or some.
@@ -246,7 +246,7 @@ impl<'a> Table<'a> {
     }
 
     /// Without standard deviations what the best fit leaves is taken for noise.
-    pub(super) fn take_for_noise(&mut self, fits: &mut [Fit]) {
+    pub(super) fn take_for_noise(&mut self, fits: &mut [BenchFit]) {
         let variances = fits.iter().filter(|f| !f.is_rejected()).map(|f| f.minimum.cost / f.spare());
         let Some(least) = variances.reduce(f64::min).filter(|_| !self.known) else { return };
         let factor = least.sqrt().max(LEAST_SIGMA / self.sigma);
@@ -259,7 +259,7 @@ impl<'a> Table<'a> {
     }
 
     /// Parameters of a fit, the base's first, with 95 % intervals.
-    pub(super) fn values(&self, fit: &Fit) -> Vec<ParameterValue> {
+    pub(super) fn values(&self, fit: &BenchFit) -> Vec<ParameterValue> {
         let of = |(k, p): (usize, &Free)| {
             let interval = if p.is_free() { self.interval(fit, k) } else { None };
             p.found(fit.minimum.at[k], interval, fit.binding[k])
@@ -269,12 +269,12 @@ impl<'a> Table<'a> {
 
     /// Noise and, where the law misses by more or the noise is not known, what it misses by, with curves as the unit: rows of one specimen
     /// at one pressure.
-    fn interval(&self, fit: &Fit, k: usize) -> Option<[f64; 2]> {
+    fn interval(&self, fit: &BenchFit, k: usize) -> Option<[f64; 2]> {
         let found = &fit.minimum;
         let (weights, squares) = weights(&found.jacobian, k)?;
         let missed = found.cost / found.residual.len() as f64;
         let misses = !self.known || policy::misses(missed);
-        let key = |r: &Reading| (r.specimen.clone(), r.pressure_pa.to_bits());
+        let key = |r: &BenchReading| (r.specimen.clone(), r.pressure_pa.to_bits());
         let curves = groups(&self.readings, |a, b| key(a) == key(b));
         let of_curve = |rows: &Vec<usize>| {
             let sum = |of: &dyn Fn(usize) -> f64| rows.iter().map(|i| weights[*i] * of(*i)).sum();
@@ -290,7 +290,7 @@ impl<'a> Table<'a> {
         let total = noise + more;
         let of_noise = if self.known { 0.0 } else { noise * noise / fit.spare() };
         let dof = total * total / (more * more / dof + of_noise);
-        let half = Half { width: t_975(if dof < 1e4 { dof.max(1.0) as usize } else { 0 }) * total.sqrt(), misses };
+        let half = HalfWidth { width: t_975(if dof < 1e4 { dof.max(1.0) as usize } else { 0 }) * total.sqrt(), misses };
         let mut residuals = |at: &[f64]| self.residuals(fit.law, at);
         of_parameter(k, &found.at, &self.ranges(fit.law), (half, squares), Some(&mut residuals))
     }

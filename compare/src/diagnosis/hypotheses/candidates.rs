@@ -2,7 +2,7 @@
 //! catalogue.
 
 use crate::diagnosis::result::explained::ParameterValue;
-use crate::fit::least_squares::Range;
+use crate::fit::least_squares::FitRange;
 use crate::policy;
 use data::{Hold, MeasuredValue};
 use models::Scenario;
@@ -73,10 +73,10 @@ impl Free {
     }
 
     /// Range of a fit; a single value where it is not fitted.
-    pub(crate) fn range(&self) -> Range {
+    pub(crate) fn range(&self) -> FitRange {
         match self.is_free() {
-            true => Range { lower: self.lower, upper: self.upper, scale: self.scale() },
-            false => Range::fixed(self.held_at(), self.scale()),
+            true => FitRange { lower: self.lower, upper: self.upper, scale: self.scale() },
+            false => FitRange::fixed(self.held_at(), self.scale()),
         }
     }
 

@@ -1,7 +1,7 @@
 //! How large an effect would have to be to be seen in these data.
 
 use crate::diagnosis::candidates::{Candidate, Free};
-use crate::diagnosis::case::Case;
+use crate::diagnosis::case::DiagnosisCase;
 use crate::diagnosis::result::{Added, Undetectable};
 use crate::fit::basis::Basis;
 use crate::fit::least_squares::square;
@@ -13,7 +13,7 @@ const ROUNDS: usize = 12;
 const CLOSE: f64 = 0.02;
 
 /// Smallest detectable size of an effect: where its trace, base fitted out, reaches (z_{α/2m} + z_0.9)² in units of noise.
-pub(crate) fn smallest_detectable(case: &Case, effect: usize) -> Undetectable {
+pub(crate) fn smallest_detectable(case: &DiagnosisCase, effect: usize) -> Undetectable {
     let candidate = case.candidate(effect);
     let share = case.noise().is_known().then(|| smallest_share(case, effect)).flatten();
     let free = &candidate.parameters[candidate.lead()];
@@ -28,13 +28,13 @@ pub(crate) fn smallest_detectable(case: &Case, effect: usize) -> Undetectable {
 }
 
 /// The trace an effect must leave to be seen with 90 % probability.
-pub(crate) fn needed(case: &Case) -> f64 {
+pub(crate) fn needed(case: &DiagnosisCase) -> f64 {
     let z = Normal::new(0.0, 1.0).map_or(4.0, |n| n.inverse_cdf(1.0 - case.alpha / (2.0 * case.tests)));
     (z + policy::Z_POWER).powi(2)
 }
 
 /// The size as a multiple of the typical one; `None` if no size within the bounds is enough.
-fn smallest_share(case: &Case, effect: usize) -> Option<f64> {
+fn smallest_share(case: &DiagnosisCase, effect: usize) -> Option<f64> {
     let needed = needed(case);
     let base = Basis::of(&case.base.minimum.jacobian);
     let trace = |share: f64| trace(case, &base, effect, share);
@@ -63,14 +63,14 @@ fn smallest_share(case: &Case, effect: usize) -> Option<f64> {
 }
 
 /// Squared whitened trace of an effect, the base's own parameters fitted out.
-fn trace(case: &Case, base: &Basis, effect: usize, share: f64) -> f64 {
+fn trace(case: &DiagnosisCase, base: &Basis, effect: usize, share: f64) -> f64 {
     let theta = case.base.theta_with(&case.candidate(effect).at(share));
     let Some(moved) = case.problem.residuals(&case.with(effect), &theta) else { return 0.0 };
     square(&base.rest(&differences(&moved, &case.base.minimum.residual)))
 }
 
 /// The multiple of the typical size at which the first parameter meets its bound.
-fn largest_share(case: &Case, effect: usize) -> f64 {
+fn largest_share(case: &DiagnosisCase, effect: usize) -> f64 {
     let share = |p: &Free| match p.typical - p.neutral {
         d if d > 0.0 => (p.upper - p.neutral) / d,
         d if d < 0.0 => (p.lower - p.neutral) / d,
@@ -80,7 +80,7 @@ fn largest_share(case: &Case, effect: usize) -> f64 {
 }
 
 /// Of every effect that the scenario lacks and that neither the set nor a pair in it names; a ranking without verdict finds nothing.
-pub(crate) fn undetectable(case: &Case, stated: &[String], added: &[Added]) -> Vec<Undetectable> {
+pub(crate) fn undetectable(case: &DiagnosisCase, stated: &[String], added: &[Added]) -> Vec<Undetectable> {
     let found = |name: &str| {
         let in_set = !added.is_empty() && stated.iter().flat_map(|entry| entry.split(" + ")).any(|part| part == name);
         in_set || added.iter().any(|a| a.effect == name)

@@ -7,8 +7,8 @@
 //! The first term is the error. The second is the scatter of the values left out, the third the scatter that the fit took over from the
 //! rest; both are subtracted. J is the whitened derivative at the data of the fit, D the plain one \[m\] at the n values left out.
 
-use crate::diagnosis::case::Case;
-use crate::diagnosis::problem::{Fit, Problem};
+use crate::diagnosis::case::DiagnosisCase;
+use crate::diagnosis::problem::{Fit, FitProblem};
 use crate::error::CompareError;
 use crate::fit::least_squares::{dot, products, square};
 use crate::fit::numbers::groups;
@@ -24,7 +24,7 @@ const ENOUGH: f64 = 1e-2;
 
 /// Pressures or runs that are left out of a fit and then predicted by it.
 struct Fold<'a> {
-    problem: Problem<'a>,
+    problem: FitProblem<'a>,
     holds: Vec<usize>,
     /// What was measured there \[m\], in run layout.
     truth_m: Vec<f64>,
@@ -46,7 +46,7 @@ impl<'a> HeldOut<'a> {
     ///
     /// # Errors
     /// If a covariance cannot be decomposed.
-    pub(crate) fn new(case: &Case<'a>) -> Result<HeldOut<'a>, CompareError> {
+    pub(crate) fn new(case: &DiagnosisCase<'a>) -> Result<HeldOut<'a>, CompareError> {
         Ok(HeldOut { pressures: pressure_folds(case)?, runs: run_folds(case)? })
     }
 
@@ -97,7 +97,7 @@ fn taken_over_m2(fold: &Fold, fit: &Fit, predicted_m: &[f64], rows: &[usize]) ->
     sum.max(0.0) / rows.len().max(1) as f64
 }
 
-fn pressure_folds<'a>(case: &Case<'a>) -> Result<Vec<Fold<'a>>, CompareError> {
+fn pressure_folds<'a>(case: &DiagnosisCase<'a>) -> Result<Vec<Fold<'a>>, CompareError> {
     let dataset = &case.first().dataset;
     let pressed = dataset.holds.iter().filter(|hold| hold.sum_act_pa() > policy::ZERO_PRESSURE_PA);
     let pressed: Vec<&Hold> = pressed.collect();
@@ -119,7 +119,7 @@ fn pressure_folds<'a>(case: &Case<'a>) -> Result<Vec<Fold<'a>>, CompareError> {
     levels.iter().map(fold).collect()
 }
 
-fn run_folds<'a>(case: &Case<'a>) -> Result<Vec<Fold<'a>>, CompareError> {
+fn run_folds<'a>(case: &DiagnosisCase<'a>) -> Result<Vec<Fold<'a>>, CompareError> {
     let dataset = &case.first().dataset;
     let runs = dataset.runs.len();
     if runs < 2 {
@@ -147,12 +147,12 @@ fn run_folds<'a>(case: &Case<'a>) -> Result<Vec<Fold<'a>>, CompareError> {
 
 /// A fit to some holds of the first data, and the holds that it predicts.
 fn fold<'a>(
-    case: &Case<'a>,
+    case: &DiagnosisCase<'a>,
     (kept, target_m): (Vec<usize>, Vec<f64>),
     (holds, truth_m): (Vec<usize>, Vec<f64>),
     [noise_m2, fitted_m2]: [f64; 2],
 ) -> Result<Fold<'a>, CompareError> {
-    let mut problem = Problem { enough: ENOUGH, ..case.problem.clone() };
+    let mut problem = FitProblem { enough: ENOUGH, ..case.problem.clone() };
     problem.blocks[0] = problem.blocks[0].to_meet(kept, target_m, case.noise())?;
     let unseen = case.first().dataset.unseen_values().collect();
     Ok(Fold { problem, holds, truth_m, noise_m2, fitted_m2, unseen })

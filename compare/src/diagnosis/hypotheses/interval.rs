@@ -1,15 +1,15 @@
 //! Intervals of the parameters of a fit ([`crate::fit::interval`]).
 
-use crate::diagnosis::case::Case;
+use crate::diagnosis::case::DiagnosisCase;
 use crate::diagnosis::problem::Fit;
-use crate::diagnosis::source::Source;
+use crate::diagnosis::source::DiagnosisSource;
 use crate::fit::interval::{FittedData, half_width, of_parameter, weights};
 use crate::fit::least_squares::Residuals;
 use crate::fit::numbers::differences;
 
 /// Intervals of all parameters of a fit, SI; `None` if the noise is unknown or the data do not hold the parameter.
-pub(crate) fn intervals<'c>(case: &'c Case<'c>, fit: &Fit, profiled: bool) -> Vec<Option<[f64; 2]>> {
-    let part = |(i, source): (usize, &'c Source)| -> FittedData<'c> {
+pub(crate) fn intervals<'c>(case: &'c DiagnosisCase<'c>, fit: &Fit, profiled: bool) -> Vec<Option<[f64; 2]>> {
+    let part = |(i, source): (usize, &'c DiagnosisSource)| -> FittedData<'c> {
         let block = &case.problem.blocks[i];
         let residual_m = differences(&case.prediction_of(block, fit), &block.target_m);
         let readings = source.gauge.as_ref().map_or(0, |gauge| gauge.readings.len());
@@ -21,7 +21,7 @@ pub(crate) fn intervals<'c>(case: &'c Case<'c>, fit: &Fit, profiled: bool) -> Ve
 }
 
 fn one(
-    case: &Case,
+    case: &DiagnosisCase,
     fit: &Fit,
     (data, jacobian): (&[FittedData], &[Vec<f64>]),
     k: usize,

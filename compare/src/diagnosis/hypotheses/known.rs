@@ -12,7 +12,7 @@ use models::Scenario;
 
 /// A separately measured parameter, or the usual form of a law, in SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Known {
+pub(crate) struct KnownParameter {
     /// Effect, as an index into the catalogue.
     pub effect: usize,
     pub parameter: usize,
@@ -61,9 +61,9 @@ pub const BENCH_TESTS: [BenchTest; 3] = [
 /// Standard deviation that is expected of such a test, as a share of the value and of no less than its typical size. Assumed.
 pub const BENCH_TEST: f64 = 0.1;
 
-impl Known {
-    pub(crate) fn planned(effect: usize, parameter: usize) -> Known {
-        Known { effect, parameter, value: 0.0, sd: 0.0, lacking: 0.0, usual: false }
+impl KnownParameter {
+    pub(crate) fn planned(effect: usize, parameter: usize) -> KnownParameter {
+        KnownParameter { effect, parameter, value: 0.0, sd: 0.0, lacking: 0.0, usual: false }
     }
 
     /// Difference of a hypothesis to it, in standard deviations; `values` lists the hypothesis's effects, one after the other.
@@ -83,19 +83,19 @@ impl Known {
     }
 
     /// The same parameter as if a test had found this value.
-    pub(crate) fn at(self, candidates: &[Candidate], value: f64, sd: f64) -> Known {
+    pub(crate) fn at(self, candidates: &[Candidate], value: f64, sd: f64) -> KnownParameter {
         let neutral = candidates[self.effect].parameters[self.parameter].neutral;
-        Known { value, sd, lacking: (neutral - value) / sd, ..self }
+        KnownParameter { value, sd, lacking: (neutral - value) / sd, ..self }
     }
 }
 
-pub(crate) fn add_shapes(known: &mut Vec<Known>, candidates: &[Candidate]) {
+pub(crate) fn add_shapes(known: &mut Vec<KnownParameter>, candidates: &[Candidate]) {
     for (effect, candidate) in candidates.iter().enumerate() {
         for (parameter, p) in candidate.parameters.iter().enumerate().filter(|(_, p)| p.is_shape() && p.is_free()) {
             if known.iter().all(|k| (k.effect, k.parameter) != (effect, parameter)) {
                 let sd = policy::shape_sd(p.lower, p.upper);
-                let planned = Known::planned(effect, parameter);
-                known.push(Known { value: p.neutral, sd, usual: true, ..planned });
+                let planned = KnownParameter::planned(effect, parameter);
+                known.push(KnownParameter { value: p.neutral, sd, usual: true, ..planned });
             }
         }
     }
@@ -115,15 +115,15 @@ pub(crate) fn known<'m>(
     measured: impl IntoIterator<Item = &'m MeasuredValue>,
     candidates: &[Candidate],
     scenario: &Scenario,
-) -> Result<Vec<Known>, CompareError> {
-    let mut all: Vec<Known> = Vec::new();
+) -> Result<Vec<KnownParameter>, CompareError> {
+    let mut all: Vec<KnownParameter> = Vec::new();
     for m in measured {
         check(scenario, m)?;
         let Some((effect, parameter)) = place(candidates, &m.effect, &m.key) else { continue };
         // Of two tests of one quantity the first counts.
         if all.iter().all(|k| (k.effect, k.parameter) != (effect, parameter)) {
             let si = candidates[effect].parameters[parameter].si;
-            all.push(Known::planned(effect, parameter).at(candidates, m.value * si, m.sd * si));
+            all.push(KnownParameter::planned(effect, parameter).at(candidates, m.value * si, m.sd * si));
         }
     }
     Ok(all)

@@ -20,7 +20,7 @@
 //! deviation): it orders twins, and alone never excludes one from the set unless its size is absurd.
 
 use crate::diagnosis::candidates::Free;
-use crate::diagnosis::case::Case;
+use crate::diagnosis::case::DiagnosisCase;
 use crate::diagnosis::problem::Fit;
 use crate::fit::numbers::sort_by;
 use crate::policy;
@@ -48,14 +48,14 @@ pub(crate) fn allowance(best_gain: f64) -> f64 {
     1.0 + policy::FORM * best_gain.max(0.0) / policy::SAME_EVIDENCE
 }
 
-pub(crate) fn criterion(case: &Case, fit: &Fit, allowance: f64) -> f64 {
+pub(crate) fn criterion(case: &DiagnosisCase, fit: &Fit, allowance: f64) -> f64 {
     criterion_of(case, fit.cost(), case.extra(fit), allowance) + oddness(case, fit) + odd_forms(case, fit, allowance)
 }
 
 /// Σ (ln(B/B₀) / ln 2)² of the stated stiffness B₀, where one is stated; a bending test is among the squares already. It orders slips and
 /// no effects: of the sets of `ibr bench discovery --sets 49 --seed 11` it puts the truth on top in 86.0 in place of 83.7 %, and names
 /// fewer of two effects.
-pub(crate) fn odd_bending(case: &Case, fit: &Fit) -> f64 {
+pub(crate) fn odd_bending(case: &DiagnosisCase, fit: &Fit) -> f64 {
     let stated = case.first().scenario.bending_stiffness;
     if stated == 0.0 || case.problem.known_bending.is_some() {
         return 0.0;
@@ -66,21 +66,21 @@ pub(crate) fn odd_bending(case: &Case, fit: &Fit) -> f64 {
 
 /// Whether an answer has another stiffness than is stated, by a factor of two, or an effect of an unusual size: a measurement
 /// comes before belief.
-pub(crate) fn is_unusual(case: &Case, fit: &Fit) -> bool {
+pub(crate) fn is_unusual(case: &DiagnosisCase, fit: &Fit) -> bool {
     let stated = case.first().scenario.bending_stiffness;
     let is_other = |b: &f64| !policy::is_same_stiffness(*b, stated);
     case.problem.known_bending.is_none() && case.bendings(fit).iter().any(is_other) || !unusual(case, fit).is_empty()
 }
 
 /// Effects of one parameter that a fit adds at an unusual size: effect and size over the usual one.
-pub(crate) fn unusual(case: &Case, fit: &Fit) -> Vec<(usize, f64)> {
+pub(crate) fn unusual(case: &DiagnosisCase, fit: &Fit) -> Vec<(usize, f64)> {
     let size = |(effect, p, value): (usize, &Free, f64)| (effect, (value - p.neutral).abs() / p.scale());
     added_values(case, fit).into_iter().map(size).filter(|(_, size)| policy::is_unusual_size(*size)).collect()
 }
 
 /// Effect, first parameter and its value, of every effect that a fit adds and that has one parameter. Where a threshold or a time shapes
 /// the law too, the first parameter alone does not measure its size.
-fn added_values<'c>(case: &'c Case, fit: &Fit) -> Vec<(usize, &'c Free, f64)> {
+fn added_values<'c>(case: &'c DiagnosisCase, fit: &Fit) -> Vec<(usize, &'c Free, f64)> {
     let mut from = case.problem.bendings;
     let mut all = Vec::new();
     for (i, effect) in fit.effects.iter().enumerate() {
@@ -95,7 +95,7 @@ fn added_values<'c>(case: &'c Case, fit: &Fit) -> Vec<(usize, &'c Free, f64)> {
 }
 
 /// The same of a sum of squares and a number of parameters added.
-pub(crate) fn criterion_of(case: &Case, cost: f64, added: usize, allowance: f64) -> f64 {
+pub(crate) fn criterion_of(case: &DiagnosisCase, cost: f64, added: usize, allowance: f64) -> f64 {
     let values = case.noises.iter().map(|noise| noise.all_seen()).sum::<usize>();
     criterion_from(values, cost, added, allowance)
 }
@@ -110,7 +110,7 @@ fn price(values: f64, allowance: f64) -> f64 {
 }
 
 /// Fits in order of C, and the allowance used, from the best gain among fits that no bound rejects.
-pub(crate) fn sort(case: &Case, fits: &mut [Fit], over: &Fit) -> f64 {
+pub(crate) fn sort(case: &DiagnosisCase, fits: &mut [Fit], over: &Fit) -> f64 {
     let gains = fits.iter().filter(|f| !case.is_rejected(f)).map(|f| over.cost() - f.cost());
     let allowance = allowance(gains.fold(0.0, f64::max));
     sort_by(fits, |fit| criterion(case, fit, allowance));
@@ -118,14 +118,14 @@ pub(crate) fn sort(case: &Case, fits: &mut [Fit], over: &Fit) -> f64 {
 }
 
 /// Σ [(ln u / ln 3)² + 2 ln w] over the effects that were added.
-fn oddness(case: &Case, fit: &Fit) -> f64 {
+fn oddness(case: &DiagnosisCase, fit: &Fit) -> f64 {
     let odd =
         |(_, p, value): &(usize, &Free, f64)| odd_size((value - p.neutral).abs() / p.scale()) + wrong_sign(p, *value);
     added_values(case, fit).iter().map(odd).sum()
 }
 
 /// Squared deviations of the laws from their usual forms, as far as S/A does not count them: no misfit of a form excuses another.
-fn odd_forms(case: &Case, fit: &Fit, allowance: f64) -> f64 {
+fn odd_forms(case: &DiagnosisCase, fit: &Fit, allowance: f64) -> f64 {
     let (problem, values) = (&case.problem, &fit.theta()[case.problem.bendings..]);
     let forms = problem.known.iter().filter(|known| known.usual);
     let odd: f64 = forms.map(|form| form.residual(problem.candidates, &fit.effects, values).powi(2)).sum();

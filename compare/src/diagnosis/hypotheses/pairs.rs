@@ -1,6 +1,6 @@
 //! Two effects at once, when one is not enough: greedy search alone fails where two compensate each other.
 
-use crate::diagnosis::case::Case;
+use crate::diagnosis::case::DiagnosisCase;
 use crate::diagnosis::order::{Ordered, criterion};
 use crate::diagnosis::problem::Fit;
 use crate::diagnosis::result::Combination;
@@ -19,7 +19,7 @@ const REPORTED: usize = 12;
 const MOST_SIZES: usize = 2;
 
 /// p of the best further effect on top of a fit, screened and corrected for all effects; 1 if there is none.
-pub(crate) fn another_wanted(case: &Case, fit: &Fit) -> f64 {
+pub(crate) fn another_wanted(case: &DiagnosisCase, fit: &Fit) -> f64 {
     let free = Basis::of(&fit.minimum.jacobian);
     let others = case.tried.iter().filter(|e| !fit.effects.contains(e));
     let best = others.filter_map(|e| score(&case.problem, fit, &free, *e)).map(|s| s.gain).fold(0.0, f64::max);
@@ -27,7 +27,7 @@ pub(crate) fn another_wanted(case: &Case, fit: &Fit) -> f64 {
 }
 
 /// Promising pairs fitted, without those that a bound rejects; and how many there are in all.
-pub(crate) fn fit_pairs(case: &Case, singles: &[Fit], progress: &mut Progress) -> (Vec<Fit>, usize) {
+pub(crate) fn fit_pairs(case: &DiagnosisCase, singles: &[Fit], progress: &mut Progress) -> (Vec<Fit>, usize) {
     let fit = |(a, b): &(usize, usize)| {
         let (first, second) = (&singles[*a], &singles[*b]);
         let effects = [&first.effects[..], &[own(second)]].concat();
@@ -42,7 +42,7 @@ pub(crate) fn fit_pairs(case: &Case, singles: &[Fit], progress: &mut Progress) -
 }
 
 /// Pairs (index of the better single, of the other) in order of the sum of squares that screening expects of them.
-fn promising(case: &Case, singles: &[Fit]) -> Vec<(usize, usize)> {
+fn promising(case: &DiagnosisCase, singles: &[Fit]) -> Vec<(usize, usize)> {
     let n = singles.len();
     let mut expected = vec![f64::INFINITY; n * n];
     let may_join = |fit: &Fit| case.candidate(own(fit)).sizes() <= MOST_SIZES;
@@ -65,7 +65,7 @@ fn own(fit: &Fit) -> usize {
 }
 
 /// The start from the second effect's fit with the first one's expected amount on top, in the order of the pair.
-fn swapped(case: &Case, first: &Fit, second: &Fit) -> Option<Vec<f64>> {
+fn swapped(case: &DiagnosisCase, first: &Fit, second: &Fit) -> Option<Vec<f64>> {
     let effect = own(first);
     let free = Basis::of(&second.minimum.jacobian);
     let amount = score(&case.problem, second, &free, effect).filter(|s| s.amount != 0.0)?.amount;
@@ -75,14 +75,14 @@ fn swapped(case: &Case, first: &Fit, second: &Fit) -> Option<Vec<f64>> {
     Some([base, &values, own].concat())
 }
 
-pub(crate) fn indistinguishable(case: &Case, pairs: &[Fit], allowance: f64) -> Vec<usize> {
+pub(crate) fn indistinguishable(case: &DiagnosisCase, pairs: &[Fit], allowance: f64) -> Vec<usize> {
     let Some(best) = pairs.first() else { return Vec::new() };
     let c = |fit: &Fit| criterion(case, fit, allowance);
     let is_alike = |i: &usize| policy::is_alike(c(&pairs[*i]), c(best));
     (0..pairs.len()).filter(is_alike).collect()
 }
 
-pub(crate) fn describe(case: &Case, pairs: &Ordered, single: &Fit) -> Vec<Combination> {
+pub(crate) fn describe(case: &DiagnosisCase, pairs: &Ordered, single: &Fit) -> Vec<Combination> {
     let (fits, set) = (&pairs.fits, &pairs.set);
     let c = |fit: &Fit| criterion(case, fit, pairs.allowance);
     let entry = |(i, fit): (usize, &Fit)| Combination {
@@ -100,12 +100,12 @@ pub(crate) fn describe(case: &Case, pairs: &Ordered, single: &Fit) -> Vec<Combin
 }
 
 /// p of the gain of a pair over the best single effect, or over the base.
-pub(crate) fn p_over(case: &Case, pair: &Fit, single: &Fit, tried: usize) -> Option<f64> {
+pub(crate) fn p_over(case: &DiagnosisCase, pair: &Fit, single: &Fit, tried: usize) -> Option<f64> {
     let more = case.extra(pair).saturating_sub(case.extra(single)).max(1);
     case.p_of_gain((single.cost() - pair.cost()).max(0.0), more, tried as f64)
 }
 
-fn cancels(case: &Case, fit: &Fit) -> bool {
+fn cancels(case: &DiagnosisCase, fit: &Fit) -> bool {
     let lead = fit.effects.len().saturating_sub(2);
     let without = |dropped: usize| -> Option<Vec<f64>> {
         let mut theta = fit.theta().to_vec();

@@ -2,11 +2,11 @@
 
 use crate::diagnosis::candidates::{Candidate, Free, NEAR};
 use crate::diagnosis::evaluator::positions;
-use crate::diagnosis::known::Known;
-use crate::diagnosis::source::{Source, nearest};
+use crate::diagnosis::known::KnownParameter;
+use crate::diagnosis::source::{DiagnosisSource, nearest};
 use crate::error::CompareError;
 use crate::fit::basis::own_part;
-use crate::fit::least_squares::{Minimum, Range, dot, jacobian, minimise, square};
+use crate::fit::least_squares::{FitRange, Minimum, dot, jacobian, minimise, square};
 use crate::fit::numbers::{differences, least};
 use crate::fit::whiten::{MISFIT_ROUNDS, Whitener};
 use crate::layout::{single, values_of};
@@ -29,7 +29,7 @@ type WhitenerOf<'w> = dyn Fn(usize) -> Cow<'w, Whitener> + 'w;
 /// What a fit meets of a dataset.
 #[derive(Clone)]
 pub(crate) struct Block<'a> {
-    pub source: Cow<'a, Source>,
+    pub source: Cow<'a, DiagnosisSource>,
     /// Fitted holds of the dataset, rising.
     pub holds: Vec<usize>,
     /// Index of the bending stiffness of every hold of the dataset; 0 if B is kept.
@@ -44,7 +44,11 @@ pub(crate) struct Block<'a> {
 
 impl<'a> Block<'a> {
     /// All holds of a dataset's mean; `levels` are body pressures with a stiffness of their own \[Pa\].
-    pub(crate) fn of(source: &'a Source, noise: &NoiseModel, levels: &[f64]) -> Result<Block<'a>, CompareError> {
+    pub(crate) fn of(
+        source: &'a DiagnosisSource,
+        noise: &NoiseModel,
+        levels: &[f64],
+    ) -> Result<Block<'a>, CompareError> {
         let dataset = &source.dataset;
         let all: Vec<usize> = (0..dataset.holds.len()).collect();
         Ok(Block {
@@ -80,7 +84,7 @@ fn whitener(dataset: &Dataset, holds: &[usize], noise: &NoiseModel) -> Result<Wh
 }
 
 #[derive(Clone)]
-pub(crate) struct Problem<'a> {
+pub(crate) struct FitProblem<'a> {
     pub candidates: &'a [Candidate],
     pub blocks: Vec<Block<'a>>,
     /// Bending stiffnesses that are fitted; 0 if B is kept as the scenarios say.
@@ -88,7 +92,7 @@ pub(crate) struct Problem<'a> {
     /// The first of them as measured separately, and its standard deviation: one more value that is fitted \[N·m²\].
     pub known_bending: Option<[f64; 2]>,
     /// Parameters of effects measured by themselves, one more value each.
-    pub known: Vec<Known>,
+    pub known: Vec<KnownParameter>,
     /// A round of a fit that lowers the whitened sum of squares by less is the last one.
     pub enough: f64,
 }
@@ -128,7 +132,7 @@ impl Fit {
     }
 }
 
-impl Problem<'_> {
+impl FitProblem<'_> {
     /// The base of a block with effects at values in SI: one scenario per bending stiffness, one alone if B is kept.
     pub(crate) fn scenarios(&self, block: &Block, effects: &[usize], theta: &[f64]) -> Vec<Scenario> {
         let (source, (bendings, values)) = (&block.source, theta.split_at(self.bendings));
@@ -191,8 +195,8 @@ impl Problem<'_> {
         effects.iter().flat_map(|e| &self.candidates[*e].parameters)
     }
 
-    pub(crate) fn ranges(&self, effects: &[usize]) -> Vec<Range> {
-        let bending = Range { lower: 0.0, upper: policy::MOST_BENDING, scale: BENDING_SCALE };
+    pub(crate) fn ranges(&self, effects: &[usize]) -> Vec<FitRange> {
+        let bending = FitRange { lower: 0.0, upper: policy::MOST_BENDING, scale: BENDING_SCALE };
         std::iter::repeat_n(bending, self.bendings).chain(self.parameters(effects).map(Free::range)).collect()
     }
 
@@ -231,7 +235,7 @@ impl Problem<'_> {
     }
 
     /// The fit of a law that misses the data, and by how much: to it, its misfit is noise ([`crate::policy::MISFIT`]). `None` where none misses.
-    fn allowing(&self, effects: &[usize], ranges: &[Range], found: &Minimum) -> Option<(Minimum, Vec<f64>)> {
+    fn allowing(&self, effects: &[usize], ranges: &[FitRange], found: &Minimum) -> Option<(Minimum, Vec<f64>)> {
         let mut factors = self.factors(&found.residual);
         if !factors.iter().any(|f| policy::is_a_misfit(*f)) {
             return None;
@@ -278,7 +282,7 @@ impl Problem<'_> {
         self.blocks.iter().map(&mut factor).collect()
     }
 
-    fn at(&self, effects: &[usize], ranges: &[Range], at: Vec<f64>) -> Option<Minimum> {
+    fn at(&self, effects: &[usize], ranges: &[FitRange], at: Vec<f64>) -> Option<Minimum> {
         let residuals = &mut |theta: &[f64]| self.residuals(effects, theta);
         let there = Minimum::there(at, residuals)?;
         Some(Minimum { jacobian: jacobian(&there, ranges, residuals), ..there })
@@ -317,7 +321,7 @@ pub(crate) fn with(
 }
 
 /// On a bound that is not the neutral value, and the sum of squares would fall beyond it by more than noise explains.
-pub(crate) fn is_binding(minimum: &Minimum, k: usize, range: &Range, neutral: f64) -> bool {
+pub(crate) fn is_binding(minimum: &Minimum, k: usize, range: &FitRange, neutral: f64) -> bool {
     let near = NEAR * range.scale;
     let at_bound = minimum.at[k] - range.lower < near || range.upper - minimum.at[k] < near;
     if !at_bound || (minimum.at[k] - neutral).abs() < near {
@@ -337,7 +341,7 @@ mod tests {
         let at = |value: f64, push: f64| {
             let minimum =
                 Minimum { at: vec![value], residual: vec![push], cost: push * push, jacobian: vec![vec![1.0]] };
-            is_binding(&minimum, 0, &Range { lower: -2.0, upper: 2.0, scale: 1.0 }, 0.0)
+            is_binding(&minimum, 0, &FitRange { lower: -2.0, upper: 2.0, scale: 1.0 }, 0.0)
         };
         assert_eq!([1.9, 2.1].map(|push| at(2.0, push)), [false, true]);
         assert!(!at(1.0, 9.0) && at(-2.0, 9.0));

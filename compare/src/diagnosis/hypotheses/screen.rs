@@ -4,8 +4,8 @@
 //! `gain = (gᵀPr)²/(gᵀPg)` at the amount `−gᵀPr/(gᵀPg)`. Cheap and explainable, but local: an effect with a threshold
 //! shows nothing. It gives starts for the fits and asks whether another effect is needed; it decides nothing alone.
 
-use crate::diagnosis::known::Known;
-use crate::diagnosis::problem::{Fit, Problem};
+use crate::diagnosis::known::KnownParameter;
+use crate::diagnosis::problem::{Fit, FitProblem};
 use crate::fit::basis::Basis;
 use crate::fit::least_squares::{dot, square};
 use crate::fit::numbers::differences;
@@ -21,7 +21,7 @@ pub(crate) struct Score {
 }
 
 /// Whitened trace of the first bit of an effect per typical size, everything free fitted out; `None` if it leaves none.
-pub(crate) fn trace(problem: &Problem, fit: &Fit, free: &Basis, effect: usize) -> Option<Vec<f64>> {
+pub(crate) fn trace(problem: &FitProblem, fit: &Fit, free: &Basis, effect: usize) -> Option<Vec<f64>> {
     let candidate = &problem.candidates[effect];
     let effects: Vec<usize> = fit.effects.iter().copied().chain([effect]).collect();
     let moved = problem.residuals(&effects, &fit.theta_with(&candidate.at(FIRST_BIT)))?;
@@ -32,7 +32,7 @@ pub(crate) fn trace(problem: &Problem, fit: &Fit, free: &Basis, effect: usize) -
 }
 
 /// Screens an effect on top of a fit; `None` if it changes nothing there or has no equilibrium.
-pub(crate) fn score(problem: &Problem, fit: &Fit, free: &Basis, effect: usize) -> Option<Score> {
+pub(crate) fn score(problem: &FitProblem, fit: &Fit, free: &Basis, effect: usize) -> Option<Score> {
     let rest = trace(problem, fit, free, effect)?;
     let squares = square(&rest);
     let candidate = &problem.candidates[effect];
@@ -46,7 +46,7 @@ pub(crate) fn score(problem: &Problem, fit: &Fit, free: &Basis, effect: usize) -
 }
 
 /// Starts for the fit of an effect on top of another: the expected amount, then the catalogue's own.
-pub(crate) fn starts(problem: &Problem, fit: &Fit, effect: usize, own: bool) -> Vec<Vec<f64>> {
+pub(crate) fn starts(problem: &FitProblem, fit: &Fit, effect: usize, own: bool) -> Vec<Vec<f64>> {
     let candidate = &problem.candidates[effect];
     if candidate.count() == 0 {
         return candidate.starts().iter().map(|values| fit.theta_with(values)).collect();
@@ -60,7 +60,7 @@ pub(crate) fn starts(problem: &Problem, fit: &Fit, effect: usize, own: bool) -> 
 
 /// Bounds what lacking an effect costs by what it changes at the markers where the robot is fitted with it: with the base alone, whose
 /// stiffness has taken its place, it might not act at all.
-pub(crate) fn bound(problem: &Problem, base: &Fit, known: &mut [Known]) {
+pub(crate) fn bound(problem: &FitProblem, base: &Fit, known: &mut [KnownParameter]) {
     for i in 0..known.len() {
         let effect = known[i].effect;
         if known[i].usual || base.effects.contains(&effect) {

@@ -1,7 +1,7 @@
 //! Every effect of the catalogue refitted together with the base, and the set that the data cannot separate.
 
 use crate::diagnosis::candidates::{Candidate, Free};
-use crate::diagnosis::case::Case;
+use crate::diagnosis::case::DiagnosisCase;
 use crate::diagnosis::heldout::HeldOut;
 use crate::diagnosis::interval::intervals;
 use crate::diagnosis::order::{Ordered, criterion, sort, unusual};
@@ -19,11 +19,11 @@ use crate::study::predict_dataset;
 /// All effects fitted, best first, and the allowance for their form; those without equilibrium left out. Where the data push beyond
 /// a range that ends where physics does not, the case searches further from then on, in the catalogue `wider`.
 pub(crate) fn fit_all<'a>(
-    case: &mut Case<'a>,
+    case: &mut DiagnosisCase<'a>,
     wider: &'a mut Vec<Candidate>,
     progress: &mut Progress,
 ) -> (Vec<Fit>, f64) {
-    let fit = |case: &Case, effect: usize, from: Option<&Fit>| {
+    let fit = |case: &DiagnosisCase, effect: usize, from: Option<&Fit>| {
         let from = from.map(|fit| fit.theta().to_vec());
         let starts = from.into_iter().chain(starts(&case.problem, &case.base, effect, true));
         case.problem.fit(&case.with(effect), &starts.collect::<Vec<_>>())
@@ -41,7 +41,7 @@ pub(crate) fn fit_all<'a>(
     (fits, allowance)
 }
 
-fn widened(case: &Case, fits: &[Fit]) -> Vec<Candidate> {
+fn widened(case: &DiagnosisCase, fits: &[Fit]) -> Vec<Candidate> {
     let mut candidates = case.problem.candidates.to_vec();
     for fit in fits {
         let parameters = &mut candidates[added(fit)].parameters;
@@ -58,8 +58,8 @@ fn added(fit: &Fit) -> usize {
 }
 
 /// Effects that no fit could try, and why: without equilibrium at whatever value.
-pub(crate) fn left_out(case: &Case, fits: &[Fit]) -> Vec<String> {
-    let Case { problem, base, .. } = case;
+pub(crate) fn left_out(case: &DiagnosisCase, fits: &[Fit]) -> Vec<String> {
+    let DiagnosisCase { problem, base, .. } = case;
     let is_fitted = |effect: &usize| fits.iter().any(|fit| fit.effects.last() == Some(effect));
     let why = |effect: usize| {
         let theta = base.theta_with(&case.candidate(effect).at(1.0));
@@ -74,14 +74,14 @@ pub(crate) fn left_out(case: &Case, fits: &[Fit]) -> Vec<String> {
 }
 
 /// Whether the law of an effect had to take the last shape that it can: then what comes as close in mm, to a fifth, is a rival.
-fn is_shape_at_end(case: &Case, fit: &Fit) -> bool {
+fn is_shape_at_end(case: &DiagnosisCase, fit: &Fit) -> bool {
     let parameters = &case.candidate(added(fit)).parameters;
     let own = &fit.theta()[fit.theta().len() - parameters.len()..];
     parameters.iter().zip(own).any(|(p, value)| p.is_shape_at_end(*value))
 }
 
 /// Indices of the fits that the data cannot separate from the best acceptable one, best first; empty if none helps.
-pub(crate) fn indistinguishable(case: &Case, fits: &[Fit], allowance: f64) -> Vec<usize> {
+pub(crate) fn indistinguishable(case: &DiagnosisCase, fits: &[Fit], allowance: f64) -> Vec<usize> {
     let acceptable = |i: &usize| !case.is_rejected(&fits[*i]) && case.gain(&fits[*i]) > 0.0;
     let Some(best) = (0..fits.len()).find(acceptable) else { return Vec::new() };
     let c = |i: usize| criterion(case, &fits[i], allowance);
@@ -94,7 +94,7 @@ pub(crate) fn indistinguishable(case: &Case, fits: &[Fit], allowance: f64) -> Ve
 /// Beyond the set, the error at left-out data is computed for so many fits that lead the order, and for so many that leave least.
 const LEFT_OUT_OF: usize = 8;
 
-pub(crate) fn rank(case: &Case, singles: &Ordered, held_out: &HeldOut) -> Vec<Ranked> {
+pub(crate) fn rank(case: &DiagnosisCase, singles: &Ordered, held_out: &HeldOut) -> Vec<Ranked> {
     let (fits, set) = (&singles.fits, &singles.set);
     let c = |fit: &Fit| criterion(case, fit, singles.allowance);
     let before = case.error_mm(&case.prediction(&case.base));
@@ -143,14 +143,14 @@ pub(crate) fn rank(case: &Case, singles: &Ordered, held_out: &HeldOut) -> Vec<Ra
 }
 
 /// Parameters of all effects of a fit in the units of the scenario.
-pub(crate) fn parameter_values(case: &Case, fit: &Fit, profiled: bool) -> Vec<ParameterValue> {
+pub(crate) fn parameter_values(case: &DiagnosisCase, fit: &Fit, profiled: bool) -> Vec<ParameterValue> {
     let intervals = intervals(case, fit, profiled);
     let free = fit.effects.iter().flat_map(|e| &case.candidate(*e).parameters);
     let found = |(k, p): (usize, &Free)| p.found(fit.theta()[k], intervals[k], fit.binding[k]);
     (case.problem.bendings..).zip(free).map(found).collect()
 }
 
-fn notes(case: &Case, fit: &Fit, own: &[ParameterValue]) -> Vec<String> {
+fn notes(case: &DiagnosisCase, fit: &Fit, own: &[ParameterValue]) -> Vec<String> {
     let rejected = |p: &ParameterValue| {
         let (symbol, value) = (&p.symbol, quantity(p.value, &p.unit));
         format!("rejected: the best {symbol} sits on its physical bound {value}, and the data push beyond it")

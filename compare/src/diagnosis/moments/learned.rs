@@ -1,20 +1,20 @@
 //! A learned law: chosen by the missing moments of pressures left out, then fitted to the markers by the full model.
 
 use crate::diagnosis::candidates::{Candidate, candidate, has, hold_shapes};
-use crate::diagnosis::case::Case;
+use crate::diagnosis::case::DiagnosisCase;
 use crate::diagnosis::decide::Decision;
 use crate::diagnosis::heldout::HeldOut;
 use crate::diagnosis::interval::intervals;
-use crate::diagnosis::missing::{Seen, curves_of, missing_moment, seen};
+use crate::diagnosis::missing::{SeenMoments, curves_of, missing_moment, seen};
 use crate::diagnosis::options::Options;
 use crate::diagnosis::problem::{Block, Fit};
 use crate::diagnosis::result::words::with_interval;
 use crate::diagnosis::result::{Diagnosis, LearnedLaw, LearnedLine, LearnedTried, Verdict};
 use crate::diagnosis::singles::parameter_values;
-use crate::diagnosis::source::Source;
+use crate::diagnosis::source::DiagnosisSource;
 use crate::error::CompareError;
 use crate::fit::numbers::{mean, sort_by};
-use crate::moment::learned::{Form, Material, PULL, Tried, rank, taken};
+use crate::moment::learned::{LawFormula, MomentMaterial, PULL, Tried, rank, taken};
 use crate::moment::{MissingMoment, MomentCurve, MomentPoint};
 use models::Scenario;
 use nalgebra::{DMatrix, DVector};
@@ -30,7 +30,7 @@ const SHARE: f64 = 0.5;
 /// # Errors
 /// Data of which no shape comes near.
 pub(crate) fn moments(
-    case: &Case,
+    case: &DiagnosisCase,
     decision: &Decision,
     options: &Options,
     found: &Diagnosis,
@@ -53,8 +53,8 @@ type Told = (LearnedLaw, Vec<MomentCurve>);
 const SHORT_LIST: usize = 7;
 
 fn learn(
-    case: &Case,
-    seen: &[Seen],
+    case: &DiagnosisCase,
+    seen: &[SeenMoments],
     options: &Options,
     found: &Diagnosis,
     points: &[MomentPoint],
@@ -63,7 +63,7 @@ fn learn(
     let ranked = rank(&material(case, seen)?, seen[0].robot());
     let name = free_name(&case.first().scenario);
     let noise_mm = found.base.noise_floor_mm.unwrap_or(0.0).max(found.tolerance_mm);
-    let ground = Ground { sources: case.sources, options, line: line(case, seen), name: &name };
+    let ground = LawTrial { sources: case.sources, options, line: line(case, seen), name: &name };
     let mut laws = vec![(case.problem.bendings, nothing_mm / noise_mm)];
     let (mut tried, mut kept) = (Vec::new(), Vec::new());
     for law in ranked.iter().filter(|t| t.form.is_some()).take(SHORT_LIST) {
@@ -87,40 +87,40 @@ fn learn(
 }
 
 /// Whether the data hold every number of a law: an interval that reaches both ends of its range shows that they do not.
-fn is_held_by_data(case: &Case, fit: &Fit) -> bool {
+fn is_held_by_data(case: &DiagnosisCase, fit: &Fit) -> bool {
     let free = fit.effects.iter().flat_map(|e| &case.candidate(*e).parameters);
     let found = intervals(case, fit, false).into_iter().skip(case.problem.bendings);
     free.zip(found).all(|(p, interval)| interval.is_none_or(|[lo, hi]| lo > p.lower || hi < p.upper))
 }
 
-struct Ground<'a> {
-    sources: &'a [Source],
+struct LawTrial<'a> {
+    sources: &'a [DiagnosisSource],
     options: &'a Options,
     line: Option<f64>,
     name: &'a str,
 }
 
-type Use<'u, T> = dyn FnMut(&Case, &Fit, &'static Form) -> Result<Option<T>, CompareError> + 'u;
+type Use<'u, T> = dyn FnMut(&DiagnosisCase, &Fit, &'static LawFormula) -> Result<Option<T>, CompareError> + 'u;
 
-impl Ground<'_> {
+impl LawTrial<'_> {
     /// Fits a law to the markers; `None` without equilibrium.
     fn with<T>(&self, law: &Tried, each: &mut Use<T>) -> Result<Option<T>, CompareError> {
         let Some(form) = law.form else { return Ok(None) };
-        let extended = |source: &Source| Source {
+        let extended = |source: &DiagnosisSource| DiagnosisSource {
             scenario: extended(&source.scenario, form, self.name, self.line),
             ..source.clone()
         };
-        let sources: Vec<Source> = self.sources.iter().map(extended).collect();
+        let sources: Vec<DiagnosisSource> = self.sources.iter().map(extended).collect();
         let candidates = candidates(&sources[0].scenario, self.name, self.line);
         let options = Options { keep_bending: self.options.keep_bending || form.has_spring(), ..self.options.clone() };
         let own = (&candidates[..], candidates.len() - 1);
-        let case = Case::new(&sources, own, &options)?;
+        let case = DiagnosisCase::new(&sources, own, &options)?;
         let Some(fit) = fitted(&case, &law.values) else { return Ok(None) };
         each(&case, &fit, form)
     }
 }
 
-fn material(case: &Case, seen: &[Seen]) -> Result<Material, CompareError> {
+fn material(case: &DiagnosisCase, seen: &[SeenMoments]) -> Result<MomentMaterial, CompareError> {
     let (mut places, mut moments, mut parts) = (Vec::new(), Vec::new(), Vec::new());
     for (block, seen) in case.problem.blocks.iter().zip(seen) {
         let pulls = pulls(block, seen)?;
@@ -148,11 +148,11 @@ fn material(case: &Case, seen: &[Seen]) -> Result<Material, CompareError> {
         from += part.nrows();
     }
     let stiffness = (case.problem.bendings > 0).then(|| seen[0].robot().bending_stiffness);
-    Ok(Material { places, moments: DVector::from_vec(moments), covariance, stiffness })
+    Ok(MomentMaterial { places, moments: DVector::from_vec(moments), covariance, stiffness })
 }
 
 /// The actuator's pull at the measured bends: the moment missing where a share of the pull is removed, over that share.
-fn pulls(block: &Block, seen: &Seen) -> Result<Vec<Vec<f64>>, CompareError> {
+fn pulls(block: &Block, seen: &SeenMoments) -> Result<Vec<Vec<f64>>, CompareError> {
     let taken = |scenario: &Scenario| {
         let formula = PULL.formula("pull_share", scenario);
         let mut other = scenario.clone();
@@ -166,7 +166,7 @@ fn pulls(block: &Block, seen: &Seen) -> Result<Vec<Vec<f64>>, CompareError> {
 }
 
 /// Position of the markers' line, if the shapes find another one than the scenario's \[m\].
-fn line(case: &Case, seen: &[Seen]) -> Option<f64> {
+fn line(case: &DiagnosisCase, seen: &[SeenMoments]) -> Option<f64> {
     let shared = seen[0].shape.shared.first()?;
     (!has(&case.first().scenario, LINE) && !case.first().direct.frame && shared.is_told())
         .then_some(1e-3 * shared.value)
@@ -177,7 +177,7 @@ fn free_name(scenario: &Scenario) -> String {
     std::iter::once(NAME.to_string()).chain((2..).map(|i| format!("{NAME}_{i}"))).find(is_free).unwrap_or_default()
 }
 
-fn extended(scenario: &Scenario, form: &Form, name: &str, line: Option<f64>) -> Scenario {
+fn extended(scenario: &Scenario, form: &LawFormula, name: &str, line: Option<f64>) -> Scenario {
     let mut other = scenario.clone();
     other.formulas.extend(form.formula(name, scenario));
     line.map_or(other.clone(), |line| other.with_effect(LINE, &[line]))
@@ -195,7 +195,7 @@ fn candidates(scenario: &Scenario, name: &str, line: Option<f64>) -> Vec<Candida
 /// Shares of what the moments say from which a law is fitted to the markers: the whole may leave no equilibrium.
 const STARTS: [f64; 3] = [1.0, 0.5, 0.1];
 
-fn fitted(case: &Case, values: &[f64]) -> Option<Fit> {
+fn fitted(case: &DiagnosisCase, values: &[f64]) -> Option<Fit> {
     let effects: Vec<usize> = (0..case.problem.candidates.len()).collect();
     let own = &case.problem.candidates[effects.len() - 1].parameters;
     let start = |share: f64| {
@@ -206,7 +206,13 @@ fn fitted(case: &Case, values: &[f64]) -> Option<Fit> {
     case.problem.fit(&effects, &STARTS.map(start))
 }
 
-fn told(case: &Case, fit: &Fit, form: &Form, name: &str, found: &Diagnosis) -> Result<LearnedLaw, CompareError> {
+fn told(
+    case: &DiagnosisCase,
+    fit: &Fit,
+    form: &LawFormula,
+    name: &str,
+    found: &Diagnosis,
+) -> Result<LearnedLaw, CompareError> {
     let held_out = HeldOut::new(case)?;
     let mut values = parameter_values(case, fit, false);
     let own = values.split_off(values.len() - form.numbers.len());

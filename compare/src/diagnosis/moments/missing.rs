@@ -1,16 +1,16 @@
 //! The missing moment of a diagnosis: its points from all data, and the answers as curves through them.
 
-use crate::diagnosis::case::Case;
+use crate::diagnosis::case::DiagnosisCase;
 use crate::diagnosis::decide::Decision;
 use crate::diagnosis::problem::{Block, Fit};
 use crate::diagnosis::result::Diagnosis;
-use crate::diagnosis::result::answers::{Answer, Standing};
+use crate::diagnosis::result::answers::{EffectAnswer, Standing};
 use crate::diagnosis::source::nearest;
 use crate::error::CompareError;
 use crate::fit::least_squares::{products, square};
 use crate::moment::{
-    MeasuredShape, MissingMoment, MomentCurve, MomentPoint, Moments, Path, Robot, Shape, View, band, curve, degrees,
-    missing, moments, sentences, shape, shape_sentences,
+    MeasuredShape, MissingMoment, MomentCurve, MomentPoint, Moments, PressurePath, RobotScenarios, Shape, View, band,
+    curve, degrees, missing, moments, sentences, shape, shape_sentences,
 };
 use models::Scenario;
 use models::effects::Stage;
@@ -29,8 +29,8 @@ const BAND: f64 = 1.96;
 /// The moment missing in all data, relative to the scenario as given: with its own bending stiffness, or the separately measured one.
 /// A fitted stiffness would absorb part of the missing moment; it is a curve among the others.
 pub(crate) fn missing_moment(
-    case: &Case,
-    seen: &[Seen],
+    case: &DiagnosisCase,
+    seen: &[SeenMoments],
     decision: &Decision,
     found: &Diagnosis,
 ) -> Result<MissingMoment, CompareError> {
@@ -45,20 +45,20 @@ pub(crate) fn missing_moment(
     Ok(MissingMoment { shapes, sentences: told, points, curves, bending_nm2: own_bending(case) })
 }
 
-pub(crate) struct Seen {
+pub(crate) struct SeenMoments {
     base: Vec<Scenario>,
     of_hold: Vec<usize>,
     pub shape: Shape,
     pub moments: Moments,
 }
 
-impl Seen {
-    fn of(case: &Case, block: &Block) -> Result<Seen, CompareError> {
+impl SeenMoments {
+    fn of(case: &DiagnosisCase, block: &Block) -> Result<SeenMoments, CompareError> {
         let base = case.problem.scenarios(block, &case.base.effects, &reference(case));
         let shape = shape(&view(block, &base[0]))?;
         let of_hold = block.bending_of.clone();
-        let moments = moments(&view(block, &base[0]), &shape, &Robot { scenarios: &base, of_hold: &of_hold })?;
-        Ok(Seen { base, of_hold, shape, moments })
+        let moments = moments(&view(block, &base[0]), &shape, &RobotScenarios { scenarios: &base, of_hold: &of_hold })?;
+        Ok(SeenMoments { base, of_hold, shape, moments })
     }
 
     /// What another robot misses at the bends that were measured, moment after moment and place after place \[N·m\]: the base,
@@ -69,7 +69,7 @@ impl Seen {
         change: &dyn Fn(&Scenario) -> Scenario,
     ) -> Result<Vec<Vec<f64>>, CompareError> {
         let other: Vec<Scenario> = self.base.iter().map(change).collect();
-        let robot = Robot { scenarios: &other, of_hold: &self.of_hold };
+        let robot = RobotScenarios { scenarios: &other, of_hold: &self.of_hold };
         missing(&view(block, &other[0]), &self.shape, &robot, &self.shape.bends())
     }
 
@@ -82,8 +82,8 @@ impl Seen {
 ///
 /// # Errors
 /// Data of which no shape comes near.
-pub(crate) fn seen(case: &Case) -> Result<Vec<Seen>, CompareError> {
-    case.problem.blocks.iter().map(|block| Seen::of(case, block)).collect()
+pub(crate) fn seen(case: &DiagnosisCase) -> Result<Vec<SeenMoments>, CompareError> {
+    case.problem.blocks.iter().map(|block| SeenMoments::of(case, block)).collect()
 }
 
 fn view<'a>(block: &'a Block, scenario: &'a Scenario) -> View<'a> {
@@ -97,24 +97,24 @@ fn view<'a>(block: &'a Block, scenario: &'a Scenario) -> View<'a> {
 }
 
 /// Parameters of the base with the separately measured bending stiffness, or the scenario's.
-fn reference(case: &Case) -> Vec<f64> {
+fn reference(case: &DiagnosisCase) -> Vec<f64> {
     let mut theta = case.base.theta().to_vec();
     theta[..case.problem.bendings].fill(own_bending(case));
     theta
 }
 
-fn own_bending(case: &Case) -> f64 {
+fn own_bending(case: &DiagnosisCase) -> f64 {
     case.problem.known_bending.map_or(case.first().scenario.bending_stiffness, |[value, _]| value)
 }
 
 fn curves(
-    case: &Case,
+    case: &DiagnosisCase,
     decision: &Decision,
     found: &Diagnosis,
     points: &[MomentPoint],
 ) -> Result<Vec<MomentCurve>, CompareError> {
-    let helps = |a: &Answer| !found.is_quiet() && a.helps();
-    let mut kept: Vec<Answer> = found.answers().into_iter().filter(helps).collect();
+    let helps = |a: &EffectAnswer| !found.is_quiet() && a.helps();
+    let mut kept: Vec<EffectAnswer> = found.answers().into_iter().filter(helps).collect();
     let first = kept.iter().filter(|a| a.standing != Standing::Other).count();
     kept.truncate((first + OTHERS).min(MOST_CURVES));
     let told = kept.iter().map(|a| (a.name(), a.standing != Standing::Other, fit_of(case, decision, &a.name())));
@@ -130,13 +130,13 @@ fn curves(
 
 /// The curves of one fit: ways up and down at every body pressure.
 pub(crate) fn curves_of(
-    case: &Case,
+    case: &DiagnosisCase,
     fit: &Fit,
     (answer, is_told): (&str, bool),
     points: &[MomentPoint],
 ) -> Result<Vec<MomentCurve>, CompareError> {
     let least_deg = points.iter().filter(|p| p.is_of_hold()).map(|p| p.bend_deg).fold(f64::INFINITY, f64::min);
-    let of_path = |(level, path): &(usize, Path)| {
+    let of_path = |(level, path): &(usize, PressurePath)| {
         let mut points = drawn(case, fit, *level, path)?;
         points.retain(|[_, bend_deg, ..]| *bend_deg > NEAR * least_deg);
         let (p_body_kpa, is_unloading) = (1e-3 * path.p_body_pa, path.from_pa.is_some());
@@ -146,19 +146,19 @@ pub(crate) fn curves_of(
 }
 
 /// Whether a fit changes a moment; effects of the camera change none.
-fn has_moment(case: &Case, fit: &Fit) -> bool {
+fn has_moment(case: &DiagnosisCase, fit: &Fit) -> bool {
     let added = case.added(fit);
     added.is_empty() || added.iter().any(|e| case.candidate(*e).stage != Stage::Camera)
 }
 
-fn fit_of<'a>(case: &Case, decision: &'a Decision, name: &str) -> Option<&'a Fit> {
+fn fit_of<'a>(case: &DiagnosisCase, decision: &'a Decision, name: &str) -> Option<&'a Fit> {
     let stated = decision.singles.fits.iter().chain(&decision.pairs.fits);
     let mut all = stated.chain(&decision.as_close).chain(&decision.last);
     all.find(|fit| case.names(fit).join(" + ") == name)
 }
 
 /// Ways up, and down where points lie there, at every body pressure, with the number of its stiffness.
-fn paths(case: &Case, points: &[MomentPoint]) -> Vec<(usize, Path)> {
+fn paths(case: &DiagnosisCase, points: &[MomentPoint]) -> Vec<(usize, PressurePath)> {
     let first = case.first().dataset.holds.first();
     let wait_s = first.and_then(|hold| hold.t_s.last().copied()).unwrap_or(0.0).max(0.0);
     let mut paths = Vec::new();
@@ -170,9 +170,9 @@ fn paths(case: &Case, points: &[MomentPoint]) -> Vec<(usize, Path)> {
         }
         let share = |i: usize| LEAST + (1.0 - LEAST) * i as f64 / (PRESSURES - 1) as f64;
         let p_act_pa: Vec<f64> = (0..PRESSURES).map(|i| highest * share(i)).collect();
-        let up = Path { p_body_pa: *p_body_pa, p_act_pa, from_pa: None, wait_s };
+        let up = PressurePath { p_body_pa: *p_body_pa, p_act_pa, from_pa: None, wait_s };
         if points.iter().filter(own).any(|p| p.phase == "unload" && p.p_act_kpa > 0.0) {
-            paths.push((level, Path { from_pa: Some(highest), ..up.clone() }));
+            paths.push((level, PressurePath { from_pa: Some(highest), ..up.clone() }));
         }
         paths.push((level, up));
     }
@@ -180,7 +180,7 @@ fn paths(case: &Case, points: &[MomentPoint]) -> Vec<(usize, Path)> {
 }
 
 /// Pressure \[kPa\], bend \[°\], moment and half-width of its band \[N·m\].
-fn drawn(case: &Case, fit: &Fit, level: usize, path: &Path) -> Result<Vec<[f64; 4]>, CompareError> {
+fn drawn(case: &DiagnosisCase, fit: &Fit, level: usize, path: &PressurePath) -> Result<Vec<[f64; 4]>, CompareError> {
     let block = &case.problem.blocks[0];
     let at = |fit: &Fit, theta: &[f64]| -> Scenario {
         let all = case.problem.scenarios(block, &fit.effects, theta);
@@ -197,7 +197,7 @@ fn drawn(case: &Case, fit: &Fit, level: usize, path: &Path) -> Result<Vec<[f64; 
 }
 
 /// Values one standard deviation away in directions that do not depend on each other.
-fn shifts(case: &Case, fit: &Fit) -> Vec<Vec<f64>> {
+fn shifts(case: &DiagnosisCase, fit: &Fit) -> Vec<Vec<f64>> {
     let Some(jacobian) = case.problem.jacobian_allowing(fit) else { return Vec::new() };
     let ranges = case.problem.ranges(&fit.effects);
     let free: Vec<usize> = (0..ranges.len()).filter(|k| ranges[*k].is_free() && square(&jacobian[*k]) > 0.0).collect();

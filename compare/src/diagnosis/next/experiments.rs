@@ -1,7 +1,7 @@
 //! Experiments that may be proposed, for any robot: its own pressures scaled, not ours.
 
 use crate::diagnosis::known::BenchTest;
-use crate::diagnosis::source::{Source, body_pressures, seen_rolled};
+use crate::diagnosis::source::{DiagnosisSource, body_pressures, seen_rolled};
 use crate::policy;
 use data::{Dataset, Direct, Hold, Lost, Phase};
 use models::Scenario;
@@ -19,7 +19,7 @@ pub(crate) struct Plan {
     pub name: String,
     pub sentence: String,
     /// Parts, each measured as often as the data at hand; none of a bending test.
-    pub parts: Vec<Source>,
+    pub parts: Vec<DiagnosisSource>,
     /// Separate tests in addition to the parts.
     pub tests: Vec<&'static BenchTest>,
 }
@@ -81,7 +81,7 @@ fn protocols(scenario: &Scenario, dataset: &Dataset, direct: Direct) -> Vec<Plan
     let up_down: Vec<f64> = steps(3).into_iter().chain(steps(3).into_iter().rev().skip(1)).collect();
     let part = |scenario: &Scenario, pressures: &[f64], body: f64, hold_s: f64| {
         let planned = protocol(dataset, pressures, body, hold_s);
-        Source { direct, ..Source::of(scenario.clone(), planned, None) }
+        DiagnosisSource { direct, ..DiagnosisSource::of(scenario.clone(), planned, None) }
     };
     let one = |pressures: &[f64], body: f64, hold_s: f64| vec![part(scenario, pressures, body, hold_s)];
     let usual = hold_length_s(dataset);

@@ -14,14 +14,14 @@
 pub(super) mod experiments;
 pub(super) mod worth;
 
-use crate::diagnosis::case::Case;
+use crate::diagnosis::case::DiagnosisCase;
 use crate::diagnosis::decide::Decision;
 use crate::diagnosis::experiments::{BENDING_TEST, Plan, bending_test, plans, protocol_text};
-use crate::diagnosis::known::{BENCH_TEST, BENCH_TESTS, BenchTest, Known, parameters_of};
+use crate::diagnosis::known::{BENCH_TEST, BENCH_TESTS, BenchTest, KnownParameter, parameters_of};
 use crate::diagnosis::order::allowance;
-use crate::diagnosis::problem::{Block, Fit, Problem, with};
+use crate::diagnosis::problem::{Block, Fit, FitProblem, with};
 use crate::diagnosis::result::{Experiment, NextExperiment, Separation, Verdict};
-use crate::diagnosis::source::{Source, is_rolled, nearest};
+use crate::diagnosis::source::{DiagnosisSource, is_rolled, nearest};
 use crate::directions::nuisance_directions;
 use crate::error::CompareError;
 use crate::fit::numbers::sort_by;
@@ -45,7 +45,7 @@ const LAMBDA_ERROR: f64 = 0.05;
 /// Looks for the experiment; `None` if there is nothing to separate or the noise is unknown. Where the answer is outside the
 /// catalogue the names at hand are wrong anyhow: nothing is computed to separate them, and `outside` names the place to look at.
 pub(super) fn next_experiment(
-    case: &Case,
+    case: &DiagnosisCase,
     decision: &Decision,
     outside: Option<String>,
 ) -> Result<Option<NextExperiment>, CompareError> {
@@ -89,7 +89,7 @@ fn hypotheses(decision: &Decision) -> Vec<&Fit> {
 
 /// What would have to be measured directly so that no remaining explanation belongs to supply or camera, or to a quantity that a
 /// separate test measures.
-fn instruments(case: &Case, hypotheses: &[&Fit]) -> (Direct, Vec<&'static BenchTest>) {
+fn instruments(case: &DiagnosisCase, hypotheses: &[&Fit]) -> (Direct, Vec<&'static BenchTest>) {
     let tried: Vec<usize> = hypotheses.iter().flat_map(|fit| case.added(fit)).copied().collect();
     let has = |stage: Stage| tried.iter().any(|e| case.candidate(*e).stage == stage);
     let is_open = |test: &&BenchTest| {
@@ -100,7 +100,7 @@ fn instruments(case: &Case, hypotheses: &[&Fit]) -> (Direct, Vec<&'static BenchT
     (direct, BENCH_TESTS.iter().filter(is_open).collect())
 }
 
-fn label(case: &Case, fit: &Fit) -> String {
+fn label(case: &DiagnosisCase, fit: &Fit) -> String {
     case.names(fit).join(" + ")
 }
 
@@ -110,7 +110,7 @@ fn enough(gain: f64) -> f64 {
     (z + (z * z + policy::SAME_EVIDENCE * allowance(gain)).sqrt()).powi(2)
 }
 
-fn experiment(case: &Case, plan: &Plan, separations: Vec<Separation>, gain: f64) -> Experiment {
+fn experiment(case: &DiagnosisCase, plan: &Plan, separations: Vec<Separation>, gain: f64) -> Experiment {
     let needed = enough(gain);
     let lambdas = || separations.iter().map(|s| s.lambda);
     let within_reach = lambdas().filter(|l| policy::is_worth_its_time(*l)).reduce(f64::min);
@@ -139,7 +139,7 @@ fn experiment(case: &Case, plan: &Plan, separations: Vec<Separation>, gain: f64)
 
 /// λ from every rival, and the gain expected of the best.
 fn separations(
-    case: &Case,
+    case: &DiagnosisCase,
     plan: Option<&Plan>,
     best: &Fit,
     rivals: &[&Fit],
@@ -156,15 +156,15 @@ fn separations(
 
 /// The data that a hypothesis leads one to expect, at hand and planned.
 struct Expected<'a> {
-    problem: Problem<'a>,
+    problem: FitProblem<'a>,
     /// Bending stiffnesses that the data at hand do not have.
     added: usize,
 }
 
 impl<'a> Expected<'a> {
-    fn of(case: &Case<'a>, plan: Option<&Plan>, truth: &Fit) -> Result<Expected<'a>, CompareError> {
+    fn of(case: &DiagnosisCase<'a>, plan: Option<&Plan>, truth: &Fit) -> Result<Expected<'a>, CompareError> {
         let expected = |block: &Block<'a>| Block { target_m: case.prediction_of(block, truth), ..block.clone() };
-        let parts: &[Source] = plan.map_or(&[], |plan| &plan.parts);
+        let parts: &[DiagnosisSource] = plan.map_or(&[], |plan| &plan.parts);
         let body = parts.first().map(|part| part.dataset.holds[0].p_body_pa);
         let mut levels = case.body_pa.clone();
         let is_new = |p: &f64| levels.iter().all(|l| !policy::is_same_pressure(*l, *p));
@@ -175,7 +175,7 @@ impl<'a> Expected<'a> {
         let tested = plan.is_some_and(|plan| plan.parts.is_empty() && plan.tests.is_empty());
         let sd_nm2 = |b: f64| case.problem.known_bending.map(|[_, sd]| sd).or(tested.then_some(BENDING_TEST * b));
         let known_bending = theta.first().and_then(|b| sd_nm2(*b).filter(|sd| *sd > 0.0).map(|sd| [*b, sd]));
-        let mut problem = Problem {
+        let mut problem = FitProblem {
             candidates: case.problem.candidates,
             blocks: case.problem.blocks.iter().map(expected).collect(),
             bendings: case.problem.bendings + added,
@@ -199,13 +199,13 @@ impl<'a> Expected<'a> {
 }
 
 /// Results of separate tests, done and planned, as a hypothesis predicts them.
-fn expected_tests(case: &Case, plan: Option<&Plan>, truth: &Fit) -> Vec<Known> {
+fn expected_tests(case: &DiagnosisCase, plan: Option<&Plan>, truth: &Fit) -> Vec<KnownParameter> {
     let values = &truth.theta()[case.problem.bendings..];
     let candidates = case.problem.candidates;
     let at_hand = case.problem.known.iter().copied();
     let planned = plan.into_iter().flat_map(|plan| &plan.tests).flat_map(|test| parameters_of(test, candidates));
-    let planned = planned.map(|(effect, parameter)| Known::planned(effect, parameter));
-    let expected = |known: Known| {
+    let planned = planned.map(|(effect, parameter)| KnownParameter::planned(effect, parameter));
+    let expected = |known: KnownParameter| {
         if known.usual {
             return known;
         }
@@ -226,9 +226,9 @@ fn extended(fit: &Fit, bendings: usize, added: usize) -> Vec<f64> {
 
 /// A planned part as the hypothesis `truth` predicts it, with the noise of as many runs as at hand.
 fn planned<'a>(
-    case: &Case,
-    problem: &Problem<'a>,
-    part: &Source,
+    case: &DiagnosisCase,
+    problem: &FitProblem<'a>,
+    part: &DiagnosisSource,
     levels: &[f64],
     (truth, theta): (&Fit, &[f64]),
 ) -> Result<Block<'a>, CompareError> {
@@ -243,7 +243,7 @@ fn planned<'a>(
     let dataset = gauge.as_ref().map_or_else(|| part.dataset.clone(), |gauge| gauge.positions(&part.dataset));
     let rolled = is_rolled(part.scenario.gravity_direction, own.scenario.gravity_direction);
     let scenario = without_settled(&part.scenario, part.direct);
-    let source = Source { scenario, dataset, gauge, rolled, ..part.clone() };
+    let source = DiagnosisSource { scenario, dataset, gauge, rolled, ..part.clone() };
     let mut block = Block {
         holds: (0..source.dataset.holds.len()).collect(),
         bending_of: source.dataset.holds.iter().map(|h| nearest(levels, h.p_body_pa)).collect(),

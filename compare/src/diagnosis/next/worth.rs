@@ -2,13 +2,13 @@
 
 use super::Expected;
 use super::experiments::plans;
-use crate::diagnosis::case::Case;
+use crate::diagnosis::case::DiagnosisCase;
 use crate::diagnosis::problem::Fit;
 use crate::diagnosis::result::Worth;
 use crate::fit::numbers::{largest, squared_distance};
 
 /// Root-mean-square distance over all marker coordinates between the calibrated base and a fit.
-pub(crate) fn worth(case: &Case, fit: &Fit) -> Worth {
+pub(crate) fn worth(case: &DiagnosisCase, fit: &Fit) -> Worth {
     let first = case.first();
     let plans = plans(&first.scenario, &first.as_set(), first.direct, (first.direct, Vec::new()));
     let elsewhere = plans.into_iter().filter_map(|plan| {

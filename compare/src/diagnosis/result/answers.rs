@@ -22,7 +22,7 @@ pub enum Standing {
 
 /// One effect or two, with the values and the bending stiffness that were fitted together.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Answer<'d> {
+pub struct EffectAnswer<'d> {
     /// The effects as ranked, and their values.
     pub effects: Vec<(&'d Ranked, &'d [ParameterValue])>,
     /// B that was fitted along, one per body pressure \[N·m²\].
@@ -35,7 +35,7 @@ pub struct Answer<'d> {
     pub standing: Standing,
 }
 
-impl<'d> Answer<'d> {
+impl<'d> EffectAnswer<'d> {
     /// The effects, as the stated set writes them: `a` or `a + b`.
     pub fn name(&self) -> String {
         self.effects.iter().map(|(r, _)| r.effect.as_str()).collect::<Vec<_>>().join(" + ")
@@ -54,7 +54,7 @@ impl<'d> Answer<'d> {
     }
 
     /// The answer as changes of a scenario's text, for [`crate::ScenarioFile::with`]: each place and its new text. `level` as in
-    /// [`Answer::on`].
+    /// [`EffectAnswer::on`].
     pub fn changes(&self, level: usize) -> Vec<(String, String)> {
         let mut changes = Vec::new();
         for (r, values) in &self.effects {
@@ -73,9 +73,9 @@ impl<'d> Answer<'d> {
         self.standing != Standing::Rejected && (policy::helps(self.gain) || self.standing == Standing::Attempt)
     }
 
-    fn single(r: &'d Ranked, standing: Standing) -> Answer<'d> {
+    fn single(r: &'d Ranked, standing: Standing) -> EffectAnswer<'d> {
         let effects = vec![(r, r.parameters.as_slice())];
-        Answer { effects, bending_nm2: &r.bending_nm2, gain: r.gain, after_mm: r.systematic_after_mm, standing }
+        EffectAnswer { effects, bending_nm2: &r.bending_nm2, gain: r.gain, after_mm: r.systematic_after_mm, standing }
     }
 }
 
@@ -93,7 +93,7 @@ impl Diagnosis {
 
     /// Every effect and every reported pair: stated ones first and in that order, or the attempt and answers that come as close; then
     /// others by their gain; answers on a bound last.
-    pub fn answers(&self) -> Vec<Answer<'_>> {
+    pub fn answers(&self) -> Vec<EffectAnswer<'_>> {
         let attempt = self.attempt.iter().map(|a| a.effect.as_str()).collect::<Vec<_>>().join(" + ");
         let standing = |name: &str, at_bound: bool| match () {
             () if self.indistinguishable.iter().any(|stated| stated == name) => Standing::Stated,
@@ -101,20 +101,21 @@ impl Diagnosis {
             () if at_bound => Standing::Rejected,
             () => Standing::Other,
         };
-        let mut answers: Vec<Answer> =
-            self.ranked.iter().map(|r| Answer::single(r, standing(&r.effect, r.at_bound))).collect();
+        let mut answers: Vec<EffectAnswer> =
+            self.ranked.iter().map(|r| EffectAnswer::single(r, standing(&r.effect, r.at_bound))).collect();
         for pair in &self.pairs {
             let (effects, gain) = (self.members(pair), pair.gain);
             let standing = standing(&pair.effects.join(" + "), false);
             let (bending_nm2, after_mm) = (pair.bending_nm2.as_slice(), pair.systematic_after_mm);
-            answers.push(Answer { effects, bending_nm2, gain, after_mm, standing });
+            answers.push(EffectAnswer { effects, bending_nm2, gain, after_mm, standing });
         }
         if !attempt.is_empty() && answers.iter().all(|a| a.standing != Standing::Attempt) {
             answers.push(self.unreported_attempt());
         }
         let stated = self.indistinguishable.len();
-        let as_close = |a: &Answer| self.attempt_alike.iter().position(|other| other.effects.join(" + ") == a.name());
-        let place = |a: &Answer| match a.standing {
+        let as_close =
+            |a: &EffectAnswer| self.attempt_alike.iter().position(|other| other.effects.join(" + ") == a.name());
+        let place = |a: &EffectAnswer| match a.standing {
             Standing::Stated => self.indistinguishable.iter().position(|entry| *entry == a.name()).unwrap_or(0),
             Standing::Attempt => stated,
             Standing::Other => stated + 1 + as_close(a).unwrap_or(self.attempt_alike.len()),
@@ -179,9 +180,9 @@ impl Diagnosis {
     }
 
     /// The closest in mm may be too far down the list of pairs to be in it.
-    fn unreported_attempt(&self) -> Answer<'_> {
+    fn unreported_attempt(&self) -> EffectAnswer<'_> {
         let members = self.attempt.iter().filter_map(|a| Some((self.ranked(&a.effect)?, a.parameters.as_slice())));
-        Answer {
+        EffectAnswer {
             effects: members.collect(),
             bending_nm2: &self.base.bending_with_added_nm2,
             gain: f64::NAN,

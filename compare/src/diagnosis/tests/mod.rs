@@ -289,7 +289,7 @@ fn effects_of_the_scenario_are_no_candidates_but_are_refitted_on_demand() {
 fn what_the_data_do_not_hold_of_the_scenarios_own_effects_stays_as_given() {
     let scenario = robot("epam").with_effect("end_constraint", &[0.4, 0.3]);
     let data = measured(&scenario, 3, 125);
-    let sources = [Source::of(scenario.clone(), data.clone(), None)];
+    let sources = [DiagnosisSource::of(scenario.clone(), data.clone(), None)];
     let own = |keep_bending: bool| {
         let options = Options { refit_present: true, keep_bending, ..quick() };
         let (list, own) = case::catalogue(&sources, &options);

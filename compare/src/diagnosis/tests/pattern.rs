@@ -1,6 +1,6 @@
 //! Patterns without physics, and distances without noise: what they see, what they must not see, and how often noise is seen.
 
-use crate::diagnosis::case::{Case, catalogue};
+use crate::diagnosis::case::{DiagnosisCase, catalogue};
 use crate::diagnosis::left_patterns::{ClearPattern, left_patterns};
 use crate::diagnosis::tests::of_one;
 use crate::diagnosis::*;
@@ -16,11 +16,11 @@ fn measured(truth: &Scenario, runs: usize, seed: u64) -> Dataset {
 }
 
 /// What the calibrated base leaves, as `look` sees it.
-pub(crate) fn of_base<T>(scenario: &Scenario, data: &Dataset, look: impl Fn(&Case) -> T) -> T {
+pub(crate) fn of_base<T>(scenario: &Scenario, data: &Dataset, look: impl Fn(&DiagnosisCase) -> T) -> T {
     let options = Options::default();
-    let sources = [Source::of(scenario.clone(), data.clone(), None)];
+    let sources = [DiagnosisSource::of(scenario.clone(), data.clone(), None)];
     let (candidates, own) = catalogue(&sources, &options);
-    let case = Case::new(&sources, (&candidates, own), &options).unwrap();
+    let case = DiagnosisCase::new(&sources, (&candidates, own), &options).unwrap();
     look(&case)
 }
 

@@ -3,7 +3,7 @@
 use crate::beside_mean::BesideMean;
 use crate::diagnosis::bending_alarm::bending_alarm;
 use crate::diagnosis::candidates::taken_away;
-use crate::diagnosis::case::Case;
+use crate::diagnosis::case::DiagnosisCase;
 use crate::diagnosis::closest::by_design;
 use crate::diagnosis::decide::Decision;
 use crate::diagnosis::detect::undetectable;
@@ -16,12 +16,12 @@ use crate::diagnosis::pairs::describe;
 use crate::diagnosis::problem::{Block, Fit};
 use crate::diagnosis::result::*;
 use crate::diagnosis::singles::{parameter_values, rank};
-use crate::diagnosis::source::Source;
+use crate::diagnosis::source::DiagnosisSource;
 use crate::diagnosis::worth::worth;
 use crate::error::CompareError;
 use crate::evidence::{Evidence, Used};
 use crate::fit::numbers::mean;
-use crate::gauge::Reading;
+use crate::gauge::GaugeReading;
 use crate::noise_summary::NoiseSummary;
 use crate::policy;
 use crate::prepare::Outliers;
@@ -40,7 +40,11 @@ pub(crate) struct Beside<'e> {
 }
 
 /// The whole diagnosis except the parts that need a finished verdict: the story, the next experiment, the missing moment.
-pub(crate) fn assemble(case: &Case, decision: &Decision, mut beside: Beside) -> Result<Diagnosis, CompareError> {
+pub(crate) fn assemble(
+    case: &DiagnosisCase,
+    decision: &Decision,
+    mut beside: Beside,
+) -> Result<Diagnosis, CompareError> {
     let evidence = beside.evidence;
     let held_out = HeldOut::new(case)?;
     let mut ranked = rank(case, &decision.singles, &held_out);
@@ -118,13 +122,13 @@ pub(crate) fn assemble(case: &Case, decision: &Decision, mut beside: Beside) -> 
 }
 
 /// Whether the share of true answers is known: the made-up robots were planar.
-fn is_covered(case: &Case, added: &[Added]) -> bool {
+fn is_covered(case: &DiagnosisCase, added: &[Added]) -> bool {
     !added.is_empty() && !case.first().scenario.is_spatial()
 }
 
-fn fitted_beside(case: &Case, last: &Fit) -> Vec<FittedBeside> {
+fn fitted_beside(case: &DiagnosisCase, last: &Fit) -> Vec<FittedBeside> {
     let [before, after] = [&case.base, last].map(|fit| case.errors_mm(fit));
-    let of = |(i, source): (usize, &Source)| FittedBeside {
+    let of = |(i, source): (usize, &DiagnosisSource)| FittedBeside {
         dataset: source.dataset.name.clone(),
         runs: source.dataset.runs.len(),
         direct: source.direct,
@@ -134,11 +138,11 @@ fn fitted_beside(case: &Case, last: &Fit) -> Vec<FittedBeside> {
     case.sources.iter().enumerate().skip(1).map(of).collect()
 }
 
-fn gauge_fit(case: &Case, block: &Block, last: &Fit) -> Option<GaugeFit> {
+fn gauge_fit(case: &DiagnosisCase, block: &Block, last: &Fit) -> Option<GaugeFit> {
     let rms = |d: &[f64]| 1e-3 * mean(d.iter().map(|d| d * d)).sqrt();
     let readings = &block.source.gauge.as_ref()?.readings;
     let [before, after] = [&case.base, last].map(|fit| case.problem.supply_pa(block, &fit.effects, fit.theta()));
-    let kpa = |of: fn(&Reading) -> f64| readings.iter().map(|r| 1e-3 * of(r)).collect();
+    let kpa = |of: fn(&GaugeReading) -> f64| readings.iter().map(|r| 1e-3 * of(r)).collect();
     Some(GaugeFit {
         dataset: block.source.dataset.name.clone(),
         set_kpa: kpa(|r| r.set_pa),
@@ -150,7 +154,11 @@ fn gauge_fit(case: &Case, block: &Block, last: &Fit) -> Option<GaugeFit> {
     })
 }
 
-fn fails(case: &Case, fit: &Fit, lof: Option<LackOfFit>) -> Result<(ResidualMap, Vec<Statement>), CompareError> {
+fn fails(
+    case: &DiagnosisCase,
+    fit: &Fit,
+    lof: Option<LackOfFit>,
+) -> Result<(ResidualMap, Vec<Statement>), CompareError> {
     let prediction = case.prediction(fit);
     let c = BesideMean::new(&case.first().dataset, case.noise(), &prediction)?;
     let map = residual_map(&c);
@@ -158,7 +166,7 @@ fn fails(case: &Case, fit: &Fit, lof: Option<LackOfFit>) -> Result<(ResidualMap,
     Ok((map, statements))
 }
 
-fn base(case: &Case, last: &Fit, held_out: &HeldOut, noise: &NoiseSummary) -> Result<BaseFit, CompareError> {
+fn base(case: &DiagnosisCase, last: &Fit, held_out: &HeldOut, noise: &NoiseSummary) -> Result<BaseFit, CompareError> {
     let intervals = intervals(case, &case.base, true);
     let bending = |(k, value_nm2): (usize, f64)| Bending {
         p_body_kpa: 1e-3 * case.body_pa[k],
@@ -187,7 +195,7 @@ fn base(case: &Case, last: &Fit, held_out: &HeldOut, noise: &NoiseSummary) -> Re
     })
 }
 
-fn confidence(case: &Case, decision: &Decision) -> Option<Confidence> {
+fn confidence(case: &DiagnosisCase, decision: &Decision) -> Option<Confidence> {
     let last = decision.answer()?;
     let stated = if decision.pairs.fits.is_empty() { &decision.singles } else { &decision.pairs };
     let sure = confidence_of(case.gain(last), stated.set.len());
@@ -204,7 +212,7 @@ pub(crate) fn confidence_of(gain: f64, rivals: usize) -> Confidence {
     }
 }
 
-fn added(case: &Case, decision: &Decision) -> Vec<Added> {
+fn added(case: &DiagnosisCase, decision: &Decision) -> Vec<Added> {
     let Some(last) = &decision.last else { return Vec::new() };
     let own: usize = case.always.iter().map(|e| case.candidate(*e).parameters.len()).sum();
     let mut values = parameter_values(case, last, true).into_iter().skip(own);
@@ -217,7 +225,7 @@ fn added(case: &Case, decision: &Decision) -> Vec<Added> {
 }
 
 /// Names in the set of the verdict, best first; without verdict, names of the ranking.
-fn names(case: &Case, decision: &Decision, pairs: &[Combination]) -> Vec<String> {
+fn names(case: &DiagnosisCase, decision: &Decision, pairs: &[Combination]) -> Vec<String> {
     if decision.verdict.is_some_and(|v| v != Verdict::Effect) {
         return Vec::new();
     }
@@ -228,7 +236,7 @@ fn names(case: &Case, decision: &Decision, pairs: &[Combination]) -> Vec<String>
     decision.singles.stated().filter_map(name).collect()
 }
 
-fn rule_out_first(case: &Case, ranked: &[Ranked], decision: &Decision) -> Vec<String> {
+fn rule_out_first(case: &DiagnosisCase, ranked: &[Ranked], decision: &Decision) -> Vec<String> {
     if decision.verdict.is_some_and(|v| v != Verdict::Effect) {
         return Vec::new();
     }

@@ -3,14 +3,14 @@
 //! B is fitted along, and takes up part of whatever is missing: without an effect it hardly ever moves by a fifth, with one that was
 //! not found by a third to nine tenths. So an answer whose B is another one is only half an answer, which a bending test completes.
 
-use crate::diagnosis::case::Case;
+use crate::diagnosis::case::DiagnosisCase;
 use crate::diagnosis::experiments::bending_test;
 use crate::diagnosis::problem::Fit;
 use crate::diagnosis::result::BendingAlarm;
 use crate::fit::numbers::largest;
 use crate::policy;
 
-pub(crate) fn bending_alarm(case: &Case, last: &Fit) -> Option<BendingAlarm> {
+pub(crate) fn bending_alarm(case: &DiagnosisCase, last: &Fit) -> Option<BendingAlarm> {
     let test = case.problem.known_bending;
     let given = test.map_or(case.first().scenario.bending_stiffness, |[found, _]| found);
     let is_off = |b: f64| match test {

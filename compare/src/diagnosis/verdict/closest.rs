@@ -4,7 +4,7 @@
 //! scatter. So an answer that is not enough is judged by the distance that it leaves, and is not named alone:
 //! answers that leave the same distance to a fifth are reported with it.
 
-use crate::diagnosis::case::Case;
+use crate::diagnosis::case::DiagnosisCase;
 use crate::diagnosis::problem::Fit;
 use crate::diagnosis::result::Verdict;
 use crate::fit::numbers::sort_by;
@@ -12,7 +12,7 @@ use crate::policy;
 
 /// Two effects if a pair comes closer by a fifth than any single one, else one: the final model if it has as many and none of them
 /// comes closer by a fifth, else the nearest.
-pub(crate) fn closest(case: &Case, [singles, pairs]: [&[Fit]; 2], last: Fit) -> Fit {
+pub(crate) fn closest(case: &DiagnosisCase, [singles, pairs]: [&[Fit]; 2], last: Fit) -> Fit {
     let (singles, pairs) = (by_distance(case, singles), by_distance(case, pairs));
     let least = |fits: &[(f64, &Fit)]| fits.first().map_or(f64::INFINITY, |(error, _)| *error);
     let wants_two = policy::is_closer(least(&pairs), least(&singles));
@@ -27,7 +27,7 @@ pub(crate) fn closest(case: &Case, [singles, pairs]: [&[Fit]; 2], last: Fit) -> 
 
 /// The closest, then answers that leave the same distance to a fifth and less than the base: single effects, and for a pair the pairs of
 /// which no member does so alone, nearest first.
-pub(crate) fn as_close(case: &Case, [singles, pairs]: [&[Fit]; 2], closest: &Fit) -> Vec<Fit> {
+pub(crate) fn as_close(case: &DiagnosisCase, [singles, pairs]: [&[Fit]; 2], closest: &Fit) -> Vec<Fit> {
     let added = |fit: &Fit| case.added(fit).to_vec();
     let (own, before) = (added(closest), case.error_in_all_mm(&case.base));
     let most = (case.error_in_all_mm(closest) / policy::CLOSER).min(before);
@@ -44,7 +44,7 @@ pub(crate) fn as_close(case: &Case, [singles, pairs]: [&[Fit]; 2], closest: &Fit
 
 /// What follows from the design and takes a fifth of the error, the nearest first; none where the verdict is that nothing is missing.
 pub(crate) fn by_design<'d>(
-    case: &Case,
+    case: &DiagnosisCase,
     verdict: Option<Verdict>,
     singles: &'d [Fit],
 ) -> impl Iterator<Item = &'d Fit> {
@@ -56,7 +56,7 @@ pub(crate) fn by_design<'d>(
     pay.into_iter().map(|(_, fit)| fit)
 }
 
-fn by_distance<'f>(case: &Case, fits: &'f [Fit]) -> Vec<(f64, &'f Fit)> {
+fn by_distance<'f>(case: &DiagnosisCase, fits: &'f [Fit]) -> Vec<(f64, &'f Fit)> {
     let accepted = fits.iter().filter(|fit| !case.is_rejected(fit));
     let mut errors: Vec<(f64, &Fit)> = accepted.map(|fit| (case.error_in_all_mm(fit), fit)).collect();
     sort_by(&mut errors, |(mm, _)| *mm);

@@ -1,17 +1,17 @@
 //! The verdict from all fits: noise, one effect, two effects, a fault or nothing in the catalogue.
 
-use crate::diagnosis::case::Case;
+use crate::diagnosis::case::DiagnosisCase;
 use crate::diagnosis::closest::{as_close, closest};
 use crate::diagnosis::lack_of_fit::{lack_of_fit, with_supply};
 use crate::diagnosis::left_patterns::{ClearPattern, Simpler, alone, left_patterns};
 use crate::diagnosis::options::Options;
 use crate::diagnosis::order::{self, Ordered};
 use crate::diagnosis::pairs::{another_wanted, fit_pairs, indistinguishable as alike_pairs, p_over};
-use crate::diagnosis::patterns::Fault;
+use crate::diagnosis::patterns::PatternCause;
 use crate::diagnosis::problem::Fit;
 use crate::diagnosis::result::{LackOfFit, Verdict};
 use crate::diagnosis::singles::indistinguishable;
-use crate::diagnosis::source::Source;
+use crate::diagnosis::source::DiagnosisSource;
 use crate::error::CompareError;
 use crate::fit::numbers::least;
 use crate::policy;
@@ -59,7 +59,7 @@ impl Decision {
 }
 
 pub(crate) fn decide(
-    case: &Case,
+    case: &DiagnosisCase,
     (singles, allowance): (Vec<Fit>, f64),
     options: &Options,
     progress: &mut Progress,
@@ -90,7 +90,7 @@ pub(crate) fn decide(
 
 /// Adds the best effect, a second one if it is needed, and asks whether that explains the misfit.
 fn explain(
-    case: &Case,
+    case: &DiagnosisCase,
     options: &Options,
     decision: &mut Decision,
     significant: bool,
@@ -137,7 +137,7 @@ fn explain(
 }
 
 /// Whether a fit of so many effects leaves a share of the error that the tests see as more than noise, at the level that is theirs.
-fn is_unexplained(case: &Case, fit: &Fit, lof: Option<LackOfFit>, effects: usize) -> bool {
+fn is_unexplained(case: &DiagnosisCase, fit: &Fit, lof: Option<LackOfFit>, effects: usize) -> bool {
     let level = (1.0 - policy::SHARE_OF_EFFECTS) * case.alpha;
     let lacks = lof.is_some_and(|lof| lof.p_value < level);
     let left_over = |after: f64, before: f64| policy::is_left_over(effects, after, before);
@@ -145,23 +145,23 @@ fn is_unexplained(case: &Case, fit: &Fit, lof: Option<LackOfFit>, effects: usize
         || leaves_a_place(case, fit, level)
 }
 
-fn leaves_a_place(case: &Case, fit: &Fit, level: f64) -> bool {
+fn leaves_a_place(case: &DiagnosisCase, fit: &Fit, level: f64) -> bool {
     let look = left_patterns(case, fit);
     look.first(false).is_some_and(|seen| is_a_place_left(case, fit, seen) && look.is_below(seen, level))
 }
 
 /// Whether a place that a fit leaves has a share of the error; amplitudes, as far as they were seen.
-fn is_a_place_left(case: &Case, fit: &Fit, seen: &ClearPattern) -> bool {
+fn is_a_place_left(case: &DiagnosisCase, fit: &Fit, seen: &ClearPattern) -> bool {
     policy::is_a_place_left(seen.gain, case.gain(fit))
 }
 
 /// One fault whose single amplitude explains as much as the effects with more numbers. Compared with two effects, an equally good fault
 /// is the simpler answer. One effect is as simple: a place must be clearly better, for a law that is not quite its formula leaves one
 /// now and then, and a hold does not count against it, because three pressures and B leave every law one hold to miss.
-fn simpler(case: &Case, last: &Fit) -> Option<Simpler> {
-    let (kinds, margin): (&[Fault], f64) = match case.added(last).len() {
-        ..=1 => (&[Fault::Place], policy::SAME_EVIDENCE),
-        _ => (&[Fault::Place, Fault::Hold], 0.0),
+fn simpler(case: &DiagnosisCase, last: &Fit) -> Option<Simpler> {
+    let (kinds, margin): (&[PatternCause], f64) = match case.added(last).len() {
+        ..=1 => (&[PatternCause::Place], policy::SAME_EVIDENCE),
+        _ => (&[PatternCause::Place, PatternCause::Hold], 0.0),
     };
     let allowance = |fault: &ClearPattern| order::allowance(case.gain(last).max(fault.gain));
     let is_simpler = |fault: &ClearPattern| {
@@ -177,7 +177,7 @@ fn simpler(case: &Case, last: &Fit) -> Option<Simpler> {
 
 /// Takes the best pair in place of the single effect, or of the base, if it is significantly better, and in mm too: by the whitened
 /// sum of squares alone a second name may mend quiet holds and leave the error as it was.
-fn add_second(case: &Case, decision: &mut Decision, last: &mut Option<Fit>, progress: &mut Progress) {
+fn add_second(case: &DiagnosisCase, decision: &mut Decision, last: &mut Option<Fit>, progress: &mut Progress) {
     let (mut fits, tried) = fit_pairs(case, &decision.singles.fits, progress);
     let before = last.as_ref().unwrap_or(&case.base);
     let allowance = order::sort(case, &mut fits, before);
@@ -195,22 +195,22 @@ fn add_second(case: &Case, decision: &mut Decision, last: &mut Option<Fit>, prog
 
 /// Whether a fit leaves so much of the base's error by both measures: without the part that scatter between runs explains, and with
 /// it. By the first alone a misfit that looks like a run's pressure counts for little, and its remainder for much.
-fn leaves(case: &Case, fit: &Fit, left: impl Fn(f64, f64) -> bool) -> bool {
+fn leaves(case: &DiagnosisCase, fit: &Fit, left: impl Fn(f64, f64) -> bool) -> bool {
     let error_mm = |fit: &Fit| case.error_in_all_mm(fit);
     left(case.beyond_noise_mm(fit), case.beyond_noise_mm(&case.base)) && left(error_mm(fit), error_mm(&case.base))
 }
 
 /// Whether what a fit leaves is more than noise, seen by a test for lack of fit or along another effect.
-fn is_significant(case: &Case, fit: &Fit) -> Result<bool, CompareError> {
+fn is_significant(case: &DiagnosisCase, fit: &Fit) -> Result<bool, CompareError> {
     let lack = test(case, fit)?.is_some_and(|lof| lof.p_value < case.alpha);
     Ok(lack || another_wanted(case, fit) < case.alpha)
 }
 
 /// Lack of fit; of several data the clearest, corrected for their number.
-fn test(case: &Case, fit: &Fit) -> Result<Option<LackOfFit>, CompareError> {
+fn test(case: &DiagnosisCase, fit: &Fit) -> Result<Option<LackOfFit>, CompareError> {
     let mut tests = Vec::new();
     for (block, noise) in case.problem.blocks.iter().zip(&case.noises) {
-        let Source { dataset, gauge, .. } = &*block.source;
+        let DiagnosisSource { dataset, gauge, .. } = &*block.source;
         let positions = lack_of_fit(dataset, noise, &case.prediction_of(block, fit), fit.theta().len())?;
         let supply = |gauge| (gauge, case.problem.supply(block, &fit.effects, fit.theta()));
         let supply = gauge.as_ref().map(supply);
@@ -221,7 +221,7 @@ fn test(case: &Case, fit: &Fit) -> Result<Option<LackOfFit>, CompareError> {
     Ok(clearest.map(|lof| LackOfFit { p_value: (count * lof.p_value).min(1.0), ..lof }))
 }
 
-fn p_of(case: &Case, fit: &Fit) -> Option<f64> {
+fn p_of(case: &DiagnosisCase, fit: &Fit) -> Option<f64> {
     case.p_of_gain(case.seen_gain(fit), case.extra(fit), case.tests)
 }
 

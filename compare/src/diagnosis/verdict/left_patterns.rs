@@ -4,8 +4,8 @@
 //! dof of σ² as σ is estimated. Patterns resemble each other; the largest |t| of all is as if from m independent ones, m so that
 //! the 99 % quantile of the largest of simulated correlated normals is met (fixed seed), and p = 1 − (1 − p₁)^m.
 
-use crate::diagnosis::case::Case;
-use crate::diagnosis::patterns::{Fault, Pattern, patterns, uniform_bending};
+use crate::diagnosis::case::DiagnosisCase;
+use crate::diagnosis::patterns::{PatternCause, ResidualPattern, patterns, uniform_bending};
 use crate::diagnosis::problem::Fit;
 use crate::diagnosis::result::LeftPattern;
 use crate::fit::basis::Basis;
@@ -13,7 +13,7 @@ use crate::fit::least_squares::{dot, square};
 use crate::fit::numbers::{largest, sort_by};
 use crate::policy;
 use crate::stats::{SMALLEST_P, quantile, reported_p, two_sided_p};
-use crate::study::generate::Scatter;
+use crate::study::generate::NormalNumbers;
 use nalgebra::DMatrix;
 use std::cell::OnceCell;
 
@@ -31,7 +31,7 @@ const NEW: f64 = 1e-6;
 
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ClearPattern {
-    pub pattern: Pattern,
+    pub pattern: ResidualPattern,
     /// Fall of the whitened sum of squares along it.
     pub gain: f64,
     /// p of it as if it were the only one.
@@ -83,15 +83,15 @@ impl Look {
 
 /// Significant patterns in the residuals of a fit; none if p-values cannot be formed. Places are looked for on top of any uniform
 /// bending of the holds, which every law of a uniform robot may leave.
-pub(crate) fn left_patterns(case: &Case, fit: &Fit) -> Look {
+pub(crate) fn left_patterns(case: &DiagnosisCase, fit: &Fit) -> Look {
     look(case, fit, true)
 }
 
 /// The clearest fault of some kinds that the calibrated base leaves, as if it were the only cause, with its p as
 /// reported: if that is below a level and the caller accepts the fault.
 pub(crate) fn alone(
-    case: &Case,
-    kinds: &[Fault],
+    case: &DiagnosisCase,
+    kinds: &[PatternCause],
     level: f64,
     is_wanted: &dyn Fn(&ClearPattern) -> bool,
 ) -> Option<(ClearPattern, f64)> {
@@ -104,7 +104,7 @@ pub(crate) fn alone(
 
 /// In words: the fault that is a simpler answer than `last`; else what the calibrated base leaves if one pattern alone explains
 /// more of it than `last` does, else what `last` leaves.
-pub(crate) fn left_pattern(case: &Case, last: Option<&Fit>, fault: Option<&Simpler>) -> Option<LeftPattern> {
+pub(crate) fn left_pattern(case: &DiagnosisCase, last: Option<&Fit>, fault: Option<&Simpler>) -> Option<LeftPattern> {
     let told = |fit: &Fit, seen: &ClearPattern, p_value, instead| LeftPattern {
         share: seen.gain / excess(case, case.of_first(&fit.minimum.residual)).max(seen.gain),
         words: seen.pattern.words.clone(),
@@ -130,7 +130,7 @@ pub(crate) fn left_pattern(case: &Case, last: Option<&Fit>, fault: Option<&Simpl
 }
 
 /// `beside_bending`: what uniform bending explains of a place is fitted out.
-fn look(case: &Case, fit: &Fit, beside_bending: bool) -> Look {
+fn look(case: &DiagnosisCase, fit: &Fit, beside_bending: bool) -> Look {
     let (prediction, whitener) = (case.prediction(fit), &case.problem.blocks[0].whitener);
     let patterns = if case.gives_p_values() { patterns(case, &prediction) } else { Vec::new() };
     let columns: Vec<Vec<f64>> = fit.minimum.jacobian.iter().map(|column| case.of_first(column).to_vec()).collect();
@@ -161,7 +161,7 @@ fn of_several(p: f64, tests: f64) -> f64 {
     -(tests * (-p).ln_1p()).exp_m1()
 }
 
-fn excess(case: &Case, white: &[f64]) -> f64 {
+fn excess(case: &DiagnosisCase, white: &[f64]) -> f64 {
     square(white) - case.noise().seen(0..white.len()) as f64
 }
 
@@ -169,7 +169,7 @@ fn excess(case: &Case, white: &[f64]) -> f64 {
 fn independent(correlations: &DMatrix<f64>) -> Option<f64> {
     let m = correlations.nrows();
     let factor = factor(correlations);
-    let mut scatter = Scatter::new(SEED);
+    let mut scatter = NormalNumbers::new(SEED);
     let mut most: Vec<f64> = Vec::with_capacity(SIMULATED);
     for _ in 0..SIMULATED / TOGETHER {
         let mut noise = vec![[0.0; TOGETHER]; m];

@@ -1,7 +1,7 @@
 //! What data cannot show, whatever the model.
 
-use crate::diagnosis::case::Case;
-use crate::diagnosis::problem::Problem;
+use crate::diagnosis::case::DiagnosisCase;
+use crate::diagnosis::problem::FitProblem;
 use crate::diagnosis::result::Undetectable;
 use crate::diagnosis::source::body_pressures;
 use crate::fit::basis::Basis;
@@ -59,9 +59,9 @@ pub(crate) fn not_in_space(scenario: &Scenario) -> Vec<String> {
 }
 
 /// A warning if the markers, fitted without it, ask for another bending stiffness than the bending test found.
-fn bending_test(case: &Case) -> Option<String> {
+fn bending_test(case: &DiagnosisCase) -> Option<String> {
     let [found, sd] = case.problem.known_bending.filter(|_| case.problem.bendings > 0)?;
-    let alone = Problem { known_bending: None, ..case.problem.clone() };
+    let alone = FitProblem { known_bending: None, ..case.problem.clone() };
     let fit = alone.fit(&case.always, &[case.base.theta().to_vec()])?;
     let (own, others) = fit.minimum.jacobian.split_first()?;
     let (markers, weight) = (fit.theta()[0], square(&Basis::of(others).rest(own)));
@@ -75,7 +75,7 @@ fn bending_test(case: &Case) -> Option<String> {
 }
 
 /// Effects of the catalogue that a separate test found and the scenario lacks.
-fn tests_of_their_own(case: &Case) -> Vec<String> {
+fn tests_of_their_own(case: &DiagnosisCase) -> Vec<String> {
     let found = case.problem.known.iter().filter(|known| !case.always.contains(&known.effect));
     let told = found.filter_map(|known| {
         let effect = case.candidate(known.effect);
@@ -92,7 +92,7 @@ fn tests_of_their_own(case: &Case) -> Vec<String> {
     told.collect()
 }
 
-pub(crate) fn warnings(case: &Case) -> Vec<String> {
+pub(crate) fn warnings(case: &DiagnosisCase) -> Vec<String> {
     let mut warnings: Vec<String> = bending_test(case).into_iter().chain(tests_of_their_own(case)).collect();
     let target = &case.problem.blocks[0].target_m;
     let axes = case.first().dataset.axes;

@@ -13,7 +13,7 @@
 //!
 //! No pattern knows an effect. A misfit along one of them more than along all effects is what "outside the catalogue" means.
 
-use crate::diagnosis::case::Case;
+use crate::diagnosis::case::DiagnosisCase;
 use crate::diagnosis::experiments::TIP_FORCE_N;
 use crate::diagnosis::source::pressure_levels;
 use crate::fit::numbers::sort_by;
@@ -22,7 +22,7 @@ use crate::wording::short;
 use data::{Hold, Phase};
 
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Pattern {
+pub(crate) struct ResidualPattern {
     /// Its appearance, to follow "The remaining misfit looks as if".
     pub words: String,
     /// What would show it, to follow "Next:".
@@ -30,20 +30,20 @@ pub(crate) struct Pattern {
     /// The whole robot bends otherwise at some time: all that a wrong law of a uniform robot can leave. Without it, a place.
     pub is_uniform: bool,
     /// What broke, if this is what something broken looks like.
-    pub fault: Option<Fault>,
+    pub fault: Option<PatternCause>,
     /// Change of all values in run layout, in any unit.
     pub direction: Vec<f64>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Fault {
+pub(crate) enum PatternCause {
     /// A place of the robot or a marker, with the times of the bending or without any.
     Place,
     /// One hold: a set point that was not reached.
     Hold,
 }
 
-enum Place {
+enum PatternPlace {
     /// A rotation halfway between neighbouring markers, 0 between base and first marker.
     Bend(usize),
     /// Rotations at all of these points.
@@ -77,7 +77,7 @@ struct Outline {
 }
 
 /// All patterns for a prediction in run layout \[m\]; none for data of another shape, and none in space.
-pub(crate) fn patterns(case: &Case, prediction_m: &[f64]) -> Vec<Pattern> {
+pub(crate) fn patterns(case: &DiagnosisCase, prediction_m: &[f64]) -> Vec<ResidualPattern> {
     let Some(layout) = planar(case) else { return Vec::new() };
     let markers = &case.first().dataset.markers;
     let outlines = outlines(case, &layout, prediction_m);
@@ -85,10 +85,10 @@ pub(crate) fn patterns(case: &Case, prediction_m: &[f64]) -> Vec<Pattern> {
     let stations = order(&case.first().scenario.markers_m);
     let always = vec![1.0; layout.holds];
     let mut found = Vec::new();
-    let mut add = |words: String, check: String, place: &Place, time: &Vec<f64>| {
-        let fault = (*time == always || *time == bent).then_some(Fault::Place);
+    let mut add = |words: String, check: String, place: &PatternPlace, time: &Vec<f64>| {
+        let fault = (*time == always || *time == bent).then_some(PatternCause::Place);
         let direction = direction(case, &layout, &outlines, place, time);
-        found.push(Pattern { words, check, is_uniform: false, fault, direction });
+        found.push(ResidualPattern { words, check, is_uniform: false, fault, direction });
     };
     // A rotation before the first marker is one of mount or camera, which the catalogue has.
     for k in 1..layout.markers {
@@ -100,15 +100,15 @@ pub(crate) fn patterns(case: &Case, prediction_m: &[f64]) -> Vec<Pattern> {
              does not"
         );
         let words = format!("the robot bends otherwise {at} in proportion to its bending");
-        add(words, look, &Place::Bend(k), &bent);
+        add(words, look, &PatternPlace::Bend(k), &bent);
         let look = format!(
             "photograph the inflated body with the actuator vented, and once more rolled by 180°: a kink {at} is there without \
              actuator and rolls along, an error of camera or markers does not"
         );
         let words = format!("the robot has a fixed kink {at}");
-        add(words, look, &Place::Bend(k), &always);
+        add(words, look, &PatternPlace::Bend(k), &always);
     }
-    let all_along = |f: fn(f64) -> f64| Place::Bends(stretches(case).iter().map(|[s, ds]| f(*s) * ds).collect());
+    let all_along = |f: fn(f64) -> f64| PatternPlace::Bends(stretches(case).iter().map(|[s, ds]| f(*s) * ds).collect());
     let look = "hang a known force on the inflated body with the actuator vented, first on its middle and then on its tip: a wall \
                 that is not the same all along gives two stiffnesses, one that is the same leaves the actuator, whose widths and \
                 seams are measured from base to tip";
@@ -122,14 +122,14 @@ pub(crate) fn patterns(case: &Case, prediction_m: &[f64]) -> Vec<Pattern> {
              another one"
         );
         let words = format!("marker {name} sits elsewhere along the robot");
-        add(words, look, &Place::Along(m), &always);
+        add(words, look, &PatternPlace::Along(m), &always);
         for (axis, unit) in AXES {
             let look = format!(
                 "look at marker {name} in the images (what the tracking follows there, labels that are exchanged), glue it on \
                  again and repeat one run: what is the marker's own moves with it"
             );
             let words = format!("marker {name} alone is off in {axis}");
-            add(words, look, &Place::Marker(m, unit), &always);
+            add(words, look, &PatternPlace::Marker(m, unit), &always);
         }
     }
     let times = times(case, &bent);
@@ -145,18 +145,18 @@ pub(crate) fn patterns(case: &Case, prediction_m: &[f64]) -> Vec<Pattern> {
                 "put fiducials on the clamp and in the room and {check}: camera and mount move them too, the robot does not"
             );
             let shifted = format!("the image shifts in {axis} {words}");
-            add(shifted, look, &Place::All(unit), time);
+            add(shifted, look, &PatternPlace::All(unit), time);
         }
     }
     let whole = all_along(|_| 1.0);
     let gauge = if case.is_gauged() { "" } else { ", with a gauge read at the actuator (column p_gauge_kpa)" };
     for (i, When { words, check, time }) in times.into_iter().enumerate() {
-        found.push(Pattern {
+        found.push(ResidualPattern {
             words: format!("the whole robot bends otherwise {words}"),
             check: format!("{check}{gauge}"),
             is_uniform: true,
             // Single holds come first.
-            fault: (i < layout.holds).then_some(Fault::Hold),
+            fault: (i < layout.holds).then_some(PatternCause::Hold),
             direction: direction(case, &layout, &outlines, &whole, &time),
         });
     }
@@ -167,10 +167,10 @@ const AXES: [(&str, [f64; 2]); 2] = [("x", [1.0, 0.0]), ("y", [0.0, 1.0])];
 
 /// Uniform bending of every hold separately, what any law of a uniform robot may do: of the outline, and as the model bends with
 /// pressure, which knows stretches without actuator.
-pub(crate) fn uniform_bending(case: &Case, prediction_m: &[f64]) -> Vec<Vec<f64>> {
+pub(crate) fn uniform_bending(case: &DiagnosisCase, prediction_m: &[f64]) -> Vec<Vec<f64>> {
     let Some(layout) = planar(case) else { return Vec::new() };
     let outlines = outlines(case, &layout, prediction_m);
-    let bent = Place::Bends(stretches(case).iter().map(|[_, ds]| *ds).collect());
+    let bent = PatternPlace::Bends(stretches(case).iter().map(|[_, ds]| *ds).collect());
     let by_model = |h: usize| {
         let own = layout.hold_range(h);
         let slope = case.noise().directions.iter().enumerate();
@@ -181,12 +181,12 @@ pub(crate) fn uniform_bending(case: &Case, prediction_m: &[f64]) -> Vec<Vec<f64>
 }
 
 /// The layout of data in one plane, in which a place can be rotated one way only.
-fn planar(case: &Case) -> Option<Layout> {
+fn planar(case: &DiagnosisCase) -> Option<Layout> {
     Layout::of(&case.first().dataset).ok().filter(|layout| layout.axes == 2 && !case.first().scenario.is_spatial())
 }
 
 /// Stretches between neighbouring markers, the first from the base: middle and length over the last station.
-fn stretches(case: &Case) -> Vec<[f64; 2]> {
+fn stretches(case: &DiagnosisCase) -> Vec<[f64; 2]> {
     let stations = &case.first().scenario.markers_m;
     let ordered: Vec<f64> = order(stations).iter().map(|m| stations[*m]).collect();
     let last = ordered.last().copied().filter(|last| *last > 0.0).unwrap_or(1.0);
@@ -203,7 +203,7 @@ fn alone(holds: usize, hold: usize) -> Vec<f64> {
     (0..holds).map(|i| f64::from(u8::from(i == hold))).collect()
 }
 
-fn times(case: &Case, bent: &[f64]) -> Vec<When> {
+fn times(case: &DiagnosisCase, bent: &[f64]) -> Vec<When> {
     let holds = &case.first().dataset.holds;
     let one = |(h, hold): (usize, &Hold)| {
         let (number, pressure) = (h + 1, short(1e-3 * hold.p_act_pa));
@@ -236,7 +236,7 @@ fn order(stations_m: &[f64]) -> Vec<usize> {
     order
 }
 
-fn outlines(case: &Case, layout: &Layout, prediction_m: &[f64]) -> Vec<Outline> {
+fn outlines(case: &DiagnosisCase, layout: &Layout, prediction_m: &[f64]) -> Vec<Outline> {
     let order = order(&case.first().scenario.markers_m);
     let centre_m = case.first().scenario.centre_line_m.unwrap_or(case.first().scenario.radius_m);
     let outline = |sample: &[f64]| {
@@ -266,7 +266,13 @@ fn bending(layout: &Layout, prediction_m: &[f64]) -> Vec<f64> {
 }
 
 /// Displacements of a place at some times, of markers where they were seen.
-fn direction(case: &Case, layout: &Layout, outlines: &[Outline], place: &Place, time: &[f64]) -> Vec<f64> {
+fn direction(
+    case: &DiagnosisCase,
+    layout: &Layout,
+    outlines: &[Outline],
+    place: &PatternPlace,
+    time: &[f64],
+) -> Vec<f64> {
     let mut all = Vec::with_capacity(layout.values());
     for (sample, outline) in outlines.iter().enumerate() {
         let hold = sample / layout.samples;
@@ -277,17 +283,17 @@ fn direction(case: &Case, layout: &Layout, outlines: &[Outline], place: &Place, 
     all
 }
 
-fn displacement(outline: &Outline, place: &Place, marker: usize) -> [f64; 2] {
+fn displacement(outline: &Outline, place: &PatternPlace, marker: usize) -> [f64; 2] {
     let (xy, at) = (&outline.xy, outline.place[marker]);
     match place {
-        Place::Bend(k) if *k < at => turned([0.0; 2], outline, at, *k, 1.0),
-        Place::Bends(turns) => {
+        PatternPlace::Bend(k) if *k < at => turned([0.0; 2], outline, at, *k, 1.0),
+        PatternPlace::Bends(turns) => {
             turns[..at].iter().enumerate().fold([0.0; 2], |sum, (k, turn)| turned(sum, outline, at, k, *turn))
         }
-        Place::Marker(own, d) => d.map(|d| if *own == marker { d } else { 0.0 }),
-        Place::Along(own) if *own == marker => towards(xy[at - 1], xy[(at + 1).min(xy.len() - 1)]),
-        Place::Bend(_) | Place::Along(_) => [0.0; 2],
-        Place::All(d) => *d,
+        PatternPlace::Marker(own, d) => d.map(|d| if *own == marker { d } else { 0.0 }),
+        PatternPlace::Along(own) if *own == marker => towards(xy[at - 1], xy[(at + 1).min(xy.len() - 1)]),
+        PatternPlace::Bend(_) | PatternPlace::Along(_) => [0.0; 2],
+        PatternPlace::All(d) => *d,
     }
 }
 

@@ -15,7 +15,7 @@
 //! stiffness is asked about nothing else. What the numbers alone prove, of absolute or exchanged columns, no model is asked about.
 //! Where the scenario's own model sees no slip, the same is asked of the robot with all mechanisms of the shipped one and with none.
 
-use crate::diagnosis::case::{Case, catalogue};
+use crate::diagnosis::case::{DiagnosisCase, catalogue};
 use crate::diagnosis::decide::decide;
 use crate::diagnosis::options::{Options, PRESSURES_ARE_RIGHT};
 use crate::diagnosis::order;
@@ -23,7 +23,7 @@ use crate::diagnosis::other_design::designs;
 use crate::diagnosis::problem::Fit;
 use crate::diagnosis::result::words::change;
 use crate::diagnosis::singles::fit_all;
-use crate::diagnosis::source::Source;
+use crate::diagnosis::source::DiagnosisSource;
 use crate::error::CompareError;
 use crate::evidence::Evidence;
 use crate::fit::numbers::{least, mean, sort_by};
@@ -40,8 +40,8 @@ struct Weighed {
     has_its_stiffness: bool,
 }
 
-pub(crate) struct Pressures<'p> {
-    pub sources: &'p [Source],
+pub(crate) struct PressureCheck<'p> {
+    pub sources: &'p [DiagnosisSource],
     pub options: &'p Options,
 }
 
@@ -54,10 +54,10 @@ struct Undone {
     in_numbers: bool,
 }
 
-impl Pressures<'_> {
+impl PressureCheck<'_> {
     pub(crate) fn found(
         &self,
-        case: &Case,
+        case: &DiagnosisCase,
         rivals: impl FnOnce() -> Result<Vec<Fit>, CompareError>,
     ) -> Result<Option<PressureSlipFound>, CompareError> {
         if self.options.excludes(PRESSURES_ARE_RIGHT) {
@@ -82,8 +82,8 @@ impl Pressures<'_> {
 
     /// Whether a slip is asked of other designs too: numbers alone look like one, or the base leaves
     /// a quarter of the movement.
-    pub(crate) fn may_slip_in_another_design(&self, case: &Case) -> bool {
-        let looks = |Source { scenario, dataset, .. }: &Source| {
+    pub(crate) fn may_slip_in_another_design(&self, case: &DiagnosisCase) -> bool {
+        let looks = |DiagnosisSource { scenario, dataset, .. }: &DiagnosisSource| {
             PressureSlip::all(dataset, scenario.p_body_pa).iter().any(|slip| slip.is_in_numbers(dataset, scenario))
         };
         let left_mm = case.error_in_all_mm(&case.base);
@@ -92,7 +92,7 @@ impl Pressures<'_> {
     }
 
     /// A slip that the numbers alone prove, whatever a model leaves.
-    fn proved(&self, case: &Case) -> Option<PressureSlipFound> {
+    fn proved(&self, case: &DiagnosisCase) -> Option<PressureSlipFound> {
         let mut seen = self.sources.iter().map(|source| by_numbers(&source.dataset)).enumerate();
         let (of, slip) = seen.find_map(|(of, seen)| Some((of, *seen.first()?)))?;
         let before_mm = Some(case.error_in_all_mm(&case.base));
@@ -137,7 +137,7 @@ impl Pressures<'_> {
 
     /// All slips, the best first; `in_numbers`: those that the numbers alone look like.
     fn undone_slips(&self, in_numbers: bool) -> Vec<Undone> {
-        let of_source = |(of, source): (usize, &Source)| {
+        let of_source = |(of, source): (usize, &DiagnosisSource)| {
             let all = PressureSlip::all(&source.dataset, source.scenario.p_body_pa);
             all.into_iter().map(move |slip| (of, slip))
         };
@@ -159,7 +159,7 @@ impl Pressures<'_> {
         let mut sources = self.sources.to_vec();
         sources[of].dataset = slip.undone(&sources[of].dataset);
         let (candidates, own) = catalogue(&sources, self.options);
-        let case = Case::new(&sources, (&candidates[..own], own), self.options).ok()?;
+        let case = DiagnosisCase::new(&sources, (&candidates[..own], own), self.options).ok()?;
         Some(weighed(&case, &case.base))
     }
 
@@ -223,13 +223,13 @@ fn slip_of(
     evidence: &[Evidence],
     options: &Options,
 ) -> Result<(Option<PressureSlipFound>, bool), CompareError> {
-    let (sources, _) = Source::all(scenario, evidence)?;
+    let (sources, _) = DiagnosisSource::all(scenario, evidence)?;
     let (candidates, own) = catalogue(&sources, options);
-    let pressures = Pressures { sources: &sources, options };
-    let case = Case::new(&sources, (&candidates, own), options).map_err(|error| pressures.refusal(error))?;
+    let pressures = PressureCheck { sources: &sources, options };
+    let case = DiagnosisCase::new(&sources, (&candidates, own), options).map_err(|error| pressures.refusal(error))?;
     let rivals = || {
         let mut wider = Vec::new();
-        let mut case = Case::new(&sources, (&candidates, own), options)?;
+        let mut case = DiagnosisCase::new(&sources, (&candidates, own), options)?;
         let singles = fit_all(&mut case, &mut wider, &mut |_, _| ());
         Ok(decide(&case, singles, options, &mut |_, _| ())?.rivals())
     };
@@ -251,7 +251,7 @@ impl Undone {
     }
 }
 
-fn weighed(case: &Case, fit: &Fit) -> Weighed {
+fn weighed(case: &DiagnosisCase, fit: &Fit) -> Weighed {
     let bendings = case.bendings(fit);
     let told = case.first().scenario.bending_stiffness;
     Weighed {

@@ -1,6 +1,6 @@
 //! Which law of the library the points ask for.
 
-use super::library::{Form, LIBRARY};
+use super::library::{LIBRARY, LawFormula};
 use crate::fit::numbers::{groups, least, mean, sort_by};
 use crate::policy;
 use models::{Formula, Scenario};
@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
 
 #[derive(Debug, Clone)]
-pub(crate) struct Material {
+pub(crate) struct MomentMaterial {
     /// κ, θ, P, p_b, s, R, B and pull of each, SI ([`Formula::moment_at`]).
     pub places: Vec<[f64; 8]>,
     pub moments: DVector<f64>,
@@ -20,7 +20,7 @@ pub(crate) struct Material {
 #[derive(Debug, Clone)]
 pub(crate) struct Tried {
     /// The law; `None`: nothing is missing.
-    pub form: Option<&'static Form>,
+    pub form: Option<&'static LawFormula>,
     /// Of every level, the misfit there without it over the number of points.
     pub of_levels: Vec<f64>,
     /// Values fitted to all points, SI.
@@ -35,17 +35,17 @@ impl Tried {
 }
 
 /// All laws, and none, by how well they predict levels that were left out, the best first; empty with fewer levels than that takes.
-pub(crate) fn rank(material: &Material, robot: &Scenario) -> Vec<Tried> {
+pub(crate) fn rank(material: &MomentMaterial, robot: &Scenario) -> Vec<Tried> {
     let levels = material.levels();
     let count = levels.iter().max().map_or(0, |last| last + 1);
     if count < policy::FEWEST_LEVELS {
         return Vec::new();
     }
     let bodies = material.places.iter().any(|at| policy::bodies_differ(at[3], material.places[0][3]));
-    let is_fitted = |form: &Form| material.stiffness.is_some() && form.is_stiffness();
+    let is_fitted = |form: &LawFormula| material.stiffness.is_some() && form.is_stiffness();
     let open = LIBRARY.iter().filter(|form| (bodies || !form.is_of_body()) && !is_fitted(form));
-    let tried = |form: Option<&'static Form>| -> Option<Tried> {
-        let law = Law::of(form, material, robot)?;
+    let tried = |form: Option<&'static LawFormula>| -> Option<Tried> {
+        let law = TabulatedLaw::of(form, material, robot)?;
         let of_levels = (0..count).map(|level| law.missed(material, &levels, level)).collect::<Option<Vec<_>>>()?;
         let all: Vec<usize> = (0..levels.len()).collect();
         Some(Tried { form, of_levels, values: law.fit(material, &all)?.values })
@@ -67,7 +67,7 @@ pub(crate) fn taken(laws: &[(usize, f64)]) -> Option<usize> {
     alike.into_iter().min_by_key(|i| laws[*i].0)
 }
 
-impl Material {
+impl MomentMaterial {
     /// Level of actuator pressure of every point.
     fn levels(&self) -> Vec<usize> {
         let mut levels = vec![0; self.places.len()];
@@ -82,23 +82,23 @@ impl Material {
 }
 
 /// A law at all points: its values there per unit of what it is linear in, for everything else that is tried.
-struct Law {
-    form: Option<&'static Form>,
+struct TabulatedLaw {
+    form: Option<&'static LawFormula>,
     /// Values of all numbers with which the columns were made, and these: one per linear number, and the stiffness's.
     grid: Vec<(Vec<f64>, DMatrix<f64>)>,
     /// Lower and upper bound of each coefficient.
     bounds: Vec<[f64; 2]>,
 }
 
-struct Fitted {
+struct FittedLaw {
     values: Vec<f64>,
     cost: f64,
     columns: usize,
     coefficients: DVector<f64>,
 }
 
-impl Law {
-    fn of(form: Option<&'static Form>, material: &Material, robot: &Scenario) -> Option<Law> {
+impl TabulatedLaw {
+    fn of(form: Option<&'static LawFormula>, material: &MomentMaterial, robot: &Scenario) -> Option<TabulatedLaw> {
         let numbers = form.map_or(&[][..], |f| f.numbers);
         let scales: Vec<f64> = numbers.iter().map(|n| n.scale(robot)).collect();
         let formula = form.and_then(|f| f.formula("learned", robot));
@@ -125,7 +125,7 @@ impl Law {
             let columns = DMatrix::from_fn(rows, all.len(), |i, j| all[j][i]);
             (set, columns)
         };
-        (form.is_none() || formula.is_some()).then(|| Law {
+        (form.is_none() || formula.is_some()).then(|| TabulatedLaw {
             form,
             grid: sets.into_iter().map(columns).collect(),
             bounds,
@@ -133,18 +133,18 @@ impl Law {
     }
 
     /// The best over all that is tried.
-    fn fit(&self, material: &Material, rows: &[usize]) -> Option<Fitted> {
+    fn fit(&self, material: &MomentMaterial, rows: &[usize]) -> Option<FittedLaw> {
         let root = material.part(rows)?;
         let y = DVector::from_iterator(rows.len(), rows.iter().map(|i| material.moments[*i]));
         let y = root.l_dirty().solve_lower_triangular(&y)?;
-        let mut best: Option<Fitted> = None;
+        let mut best: Option<FittedLaw> = None;
         for (at, (set, columns)) in self.grid.iter().enumerate() {
             let own = DMatrix::from_fn(rows.len(), columns.ncols(), |i, j| columns[(rows[i], j)]);
             let own = root.l_dirty().solve_lower_triangular(&own)?;
             let Some(coefficients) = bounded(&own, &y, &self.bounds) else { continue };
             let cost = (&own * &coefficients - &y).norm_squared();
             if best.as_ref().is_none_or(|b| cost < b.cost) {
-                best = Some(Fitted { values: self.values(set, &coefficients), cost, columns: at, coefficients });
+                best = Some(FittedLaw { values: self.values(set, &coefficients), cost, columns: at, coefficients });
             }
         }
         best
@@ -157,7 +157,7 @@ impl Law {
     }
 
     /// What the law, fitted without a level, misses there.
-    fn missed(&self, material: &Material, levels: &[usize], level: usize) -> Option<f64> {
+    fn missed(&self, material: &MomentMaterial, levels: &[usize], level: usize) -> Option<f64> {
         let (out, kept): (Vec<usize>, Vec<usize>) = (0..levels.len()).partition(|i| levels[*i] == level);
         let fitted = self.fit(material, &kept)?;
         let columns = &self.grid[fitted.columns].1;

@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 /// In which unit of the robot a number is of order one.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Unit {
+pub(crate) enum NaturalUnit {
     /// Moment of the gas in the body, π p_b R³ \[N·m\].
     Moment,
     /// 10 π p_b R⁴ \[N·m²\]: that moment at a tenth of the sharpest bend.
@@ -28,7 +28,7 @@ pub(crate) enum Unit {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Number {
     pub key: &'static str,
-    pub unit: Unit,
+    pub unit: NaturalUnit,
     pub bounds: [f64; 2],
     /// Values that are tried, in that unit, where the law is not linear in it.
     pub tried: &'static [f64],
@@ -37,7 +37,7 @@ pub(crate) struct Number {
 
 /// A law of the library as a formula of bend and pressures.
 #[derive(Debug)]
-pub(crate) struct Form {
+pub(crate) struct LawFormula {
     pub words: &'static str,
     /// The moment; `TIP` is half of the length over the radius.
     pub moment: &'static str,
@@ -84,50 +84,50 @@ const BODY: Usual = Usual {
 
 /// Bounds of a number the law is linear in: no law is so much larger than the robot's own moments.
 const FAR: [f64; 2] = [-50.0, 50.0];
-const M: Number = linear("m", Unit::Moment, "moment that holds back, at small bends");
-const M_END: Number = linear("e", Unit::Moment, "moment more at an end");
-const K: Number = linear("k", Unit::Stiffness, "stiffness");
-const FALL: Number = linear("k", Unit::Stiffness, "by how much the moment falls per bend");
-const A: Number = linear("a", Unit::One, "share of the pull that is lost, at small bends");
-const A_BEND: Number = linear("b", Unit::One, "change of that share per radian of one unit");
-const A_END: Number = linear("e", Unit::One, "share more at an end");
-const P: Number = linear("a", Unit::One, "moment over P R³, at small bends");
-const P_BEND: Number = linear("b", Unit::One, "by how much it falls per bend of a tenth of 1/R");
-const P_BODY: Number = linear("a", Unit::One, "moment over p_b R³");
+const M: Number = linear("m", NaturalUnit::Moment, "moment that holds back, at small bends");
+const M_END: Number = linear("e", NaturalUnit::Moment, "moment more at an end");
+const K: Number = linear("k", NaturalUnit::Stiffness, "stiffness");
+const FALL: Number = linear("k", NaturalUnit::Stiffness, "by how much the moment falls per bend");
+const A: Number = linear("a", NaturalUnit::One, "share of the pull that is lost, at small bends");
+const A_BEND: Number = linear("b", NaturalUnit::One, "change of that share per radian of one unit");
+const A_END: Number = linear("e", NaturalUnit::One, "share more at an end");
+const P: Number = linear("a", NaturalUnit::One, "moment over P R³, at small bends");
+const P_BEND: Number = linear("b", NaturalUnit::One, "by how much it falls per bend of a tenth of 1/R");
+const P_BODY: Number = linear("a", NaturalUnit::One, "moment over p_b R³");
 const N: Number = Number {
     key: "n",
-    unit: Unit::One,
+    unit: NaturalUnit::One,
     bounds: [0.1, 4.0],
     tried: &[0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0],
     meaning: "power of the bend",
 };
 const Q: Number = Number {
     key: "q",
-    unit: Unit::One,
+    unit: NaturalUnit::One,
     bounds: [0.0, 3.0],
     tried: &[0.25, 0.5, 0.75, 1.0, 1.5, 2.0],
     meaning: "power of the pressure",
 };
 const TOUCH: Number = Number {
     key: "k0",
-    unit: Unit::Bend,
+    unit: NaturalUnit::Bend,
     bounds: [0.0, 0.5],
     tried: &[0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.08, 0.1, 0.12, 0.14, 0.16, 0.18, 0.2],
     meaning: "bend at which it begins",
 };
 
-const fn linear(key: &'static str, unit: Unit, meaning: &'static str) -> Number {
+const fn linear(key: &'static str, unit: NaturalUnit, meaning: &'static str) -> Number {
     Number { key, unit, bounds: FAR, tried: &[], meaning }
 }
 
-const fn law(words: &'static str, moment: &'static str, numbers: &'static [Number], usual: Usual) -> Form {
-    Form { words, moment, numbers, usual }
+const fn law(words: &'static str, moment: &'static str, numbers: &'static [Number], usual: Usual) -> LawFormula {
+    LawFormula { words, moment, numbers, usual }
 }
 
-pub(crate) const PULL: Form = law("a share of the pull", "-a*pull", &[A], SHARE);
+pub(crate) const PULL: LawFormula = law("a share of the pull", "-a*pull", &[A], SHARE);
 
 /// Laws, those with fewer numbers first.
-pub(crate) const LIBRARY: &[Form] = &[
+pub(crate) const LIBRARY: &[LawFormula] = &[
     law("a steady moment", "-m*tanh(kappa*R/0.002)", &[M], TENSION),
     law("a spring", "-k*kappa", &[K], STIFFNESS),
     PULL,
@@ -185,19 +185,19 @@ impl Number {
         let r = robot.radius_m;
         let moment = PI * robot.p_body_pa * r.powi(3);
         match self.unit {
-            Unit::Moment => moment,
-            Unit::Stiffness => 10.0 * moment * r,
-            Unit::Bend => 1.0 / r,
-            Unit::One => 1.0,
+            NaturalUnit::Moment => moment,
+            NaturalUnit::Stiffness => 10.0 * moment * r,
+            NaturalUnit::Bend => 1.0 / r,
+            NaturalUnit::One => 1.0,
         }
     }
 
     pub(crate) fn unit_text(&self) -> &'static str {
         match self.unit {
-            Unit::Moment => "N m",
-            Unit::Stiffness => "N m2",
-            Unit::Bend => "1/m",
-            Unit::One => "-",
+            NaturalUnit::Moment => "N m",
+            NaturalUnit::Stiffness => "N m2",
+            NaturalUnit::Bend => "1/m",
+            NaturalUnit::One => "-",
         }
     }
 
@@ -207,7 +207,7 @@ impl Number {
     }
 }
 
-impl Form {
+impl LawFormula {
     /// Whether a part is proportional to the bend: it takes the place of a bending stiffness that is fitted.
     pub(crate) fn has_spring(&self) -> bool {
         self.moment.contains("k*kappa") || self.moment.contains("^n")

@@ -13,7 +13,7 @@ mod library;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use choose::{Material, Tried, rank, taken};
-pub(crate) use library::{Form, PULL};
+pub(crate) use choose::{MomentMaterial, Tried, rank, taken};
 #[cfg(test)]
 pub(crate) use library::{LIBRARY, Number};
+pub(crate) use library::{LawFormula, PULL};

@@ -1,7 +1,7 @@
 //! Points made with a law of the library give it back; points of a robot that lacks nothing give none.
 
 use super::*;
-use crate::study::generate::Scatter;
+use crate::study::generate::NormalNumbers;
 use crate::study::published::textbook_scenario;
 use models::Scenario;
 use nalgebra::{DMatrix, DVector};
@@ -25,7 +25,7 @@ fn places(robot: &Scenario) -> Vec<[f64; 8]> {
 }
 
 /// Numbers in units of the robot that make a law of some size there.
-fn truth(form: &Form, robot: &Scenario) -> Vec<f64> {
+fn truth(form: &LawFormula, robot: &Scenario) -> Vec<f64> {
     let share = |n: &Number| match n.key {
         "n" | "q" if !n.is_linear() => n.tried[2],
         "k0" => 0.08,
@@ -38,8 +38,8 @@ fn truth(form: &Form, robot: &Scenario) -> Vec<f64> {
 }
 
 /// Points of a law with noise: of every point \[N·m\], and of all of a pressure together.
-fn material(form: Option<&Form>, sd: [f64; 2], seed: u64) -> Material {
-    let (robot, mut scatter) = (robot(), Scatter::new(seed));
+fn material(form: Option<&LawFormula>, sd: [f64; 2], seed: u64) -> MomentMaterial {
+    let (robot, mut scatter) = (robot(), NormalNumbers::new(seed));
     let places = places(&robot);
     let formula = form.map(|f| f.formula("law", &robot).unwrap());
     let law = |at: &[f64; 8]| formula.as_ref().map_or(0.0, |f| f.moment_at(at, &truth(form.unwrap(), &robot)));
@@ -50,10 +50,15 @@ fn material(form: Option<&Form>, sd: [f64; 2], seed: u64) -> Material {
         let own = if i == j { sd[0].powi(2) } else { 0.0 };
         own + if i / 5 == j / 5 { sd[1].powi(2) } else { 0.0 }
     };
-    Material { covariance: DMatrix::from_fn(places.len(), places.len(), covariance), places, moments, stiffness: None }
+    MomentMaterial {
+        covariance: DMatrix::from_fn(places.len(), places.len(), covariance),
+        places,
+        moments,
+        stiffness: None,
+    }
 }
 
-fn chosen(material: &Material) -> (Option<&'static Form>, Vec<f64>) {
+fn chosen(material: &MomentMaterial) -> (Option<&'static LawFormula>, Vec<f64>) {
     let mut ranked = rank(material, &robot());
     let laws: Vec<(usize, f64)> = ranked.iter().map(|t| (t.form.map_or(0, |f| f.numbers.len()), t.score())).collect();
     let law = ranked.swap_remove(taken(&laws).unwrap());
@@ -73,7 +78,7 @@ fn without_noise_every_law_gives_its_form_and_numbers_back() {
 
 #[test]
 fn noise_alone_teaches_nothing_and_a_law_beyond_noise_is_learned() {
-    let count = |form: Option<&Form>, is_right: &dyn Fn(Option<&Form>) -> bool| {
+    let count = |form: Option<&LawFormula>, is_right: &dyn Fn(Option<&LawFormula>) -> bool| {
         (0..40).filter(|seed| is_right(chosen(&material(form, [0.03, 0.02], *seed)).0)).count()
     };
     let nothing = count(None, &|found| found.is_none());
@@ -112,7 +117,7 @@ fn a_law_takes_three_pressures() {
         let (all, count) = (material(Some(&LIBRARY[0]), [0.03, 0.02], 1), 5 * pressures);
         let covariance = all.covariance.view((0, 0), (count, count)).into_owned();
         let (places, moments) = (all.places[..count].to_vec(), all.moments.rows(0, count).into_owned());
-        rank(&Material { places, moments, covariance, stiffness: None }, &robot()).len()
+        rank(&MomentMaterial { places, moments, covariance, stiffness: None }, &robot()).len()
     };
     assert!(of(2) == 0 && of(3) > 0);
 }

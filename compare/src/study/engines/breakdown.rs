@@ -5,7 +5,7 @@ use super::{CUTS, Carrier, Energies, EngineRun, SHAPE, and_back, pairs, varied};
 use crate::error::CompareError;
 use crate::study::columns::TextColumn;
 use fem::FemError;
-use fem::session::{Job, Source, mesh_keys, rounded};
+use fem::session::{RunJob, Source, mesh_keys, rounded};
 use models::Scenario;
 use serde::Serialize;
 
@@ -29,7 +29,7 @@ pub struct Ranges {
 ///
 /// # Errors
 /// [`FemError::Setting`] for pouches longer than the actuator.
-pub fn jobs(robots: &[(Source, Scenario)], ranges: &Ranges) -> Result<Vec<Job>, FemError> {
+pub fn jobs(robots: &[(Source, Scenario)], ranges: &Ranges) -> Result<Vec<RunJob>, FemError> {
     let mut jobs = Vec::new();
     for (source, scenario) in robots {
         for (body_kpa, pouch_mm) in places(scenario, ranges) {
@@ -39,7 +39,7 @@ pub fn jobs(robots: &[(Source, Scenario)], ranges: &Ranges) -> Result<Vec<Job>, 
                 let mut changes = vec![("pressures_kpa".to_string(), format!("{kpa:?}"))];
                 changes.extend(ranges.mesh_mm.iter().flat_map(mesh_keys));
                 changes.extend(more.map(|(key, value)| (key.to_string(), value.to_string())));
-                source.with(&changes).map(|source| jobs.push(Job { source, what, folder: None }))
+                source.with(&changes).map(|source| jobs.push(RunJob { source, what, folder: None }))
             };
             add(scenario.name.clone(), &and_back(&above), None)?;
             for cut in CUTS.iter().filter(|_| ranges.carriers) {

@@ -17,7 +17,7 @@ use serde::Serialize;
 
 /// A term that is cut to a tenth.
 #[derive(Debug)]
-pub struct Cut {
+pub struct ReducedTerm {
     /// Name of the term in [`super::TERMS`].
     pub term: &'static str,
     /// Its account in the reduced model.
@@ -27,9 +27,9 @@ pub struct Cut {
 }
 
 /// Terms that runs cut to a tenth.
-pub const CUTS: [Cut; 2] = [
-    Cut { term: "wall bending", account: Account::Wall, key: ("bending_share", 0.1) },
-    Cut { term: "compressed sheets", account: Account::Compression, key: ("wrinkle_length", 10.0) },
+pub const CUTS: [ReducedTerm; 2] = [
+    ReducedTerm { term: "wall bending", account: Account::Wall, key: ("bending_share", 0.1) },
+    ReducedTerm { term: "compressed sheets", account: Account::Compression, key: ("wrinkle_length", 10.0) },
 ];
 
 /// The term without which the two engines differ least.
@@ -41,9 +41,9 @@ pub struct Carrier {
     pub difference_without: f64,
 }
 
-impl Cut {
+impl ReducedTerm {
     /// The cut of a run, if a term was cut.
-    pub(super) fn of(about: &RobotSummary) -> Option<&'static Cut> {
+    pub(super) fn of(about: &RobotSummary) -> Option<&'static ReducedTerm> {
         CUTS.iter().find(|cut| (about.setting(cut.key.0) / cut.key.1 - 1.0).abs() < 1e-9)
     }
 }

@@ -20,7 +20,7 @@ mod volumes;
 use crate::characterize::Scatter;
 use crate::error::CompareError;
 use crate::policy;
-pub use carrier::{CUTS, Carrier, Cut, carrier};
+pub use carrier::{CUTS, Carrier, ReducedTerm, carrier};
 use fem::FemError;
 use fem::record::RecordShape;
 pub use lines::*;

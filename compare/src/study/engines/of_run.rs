@@ -1,10 +1,10 @@
 //! A finite element run as a comparison wants it, and the runs of a folder or of the program.
 
-use super::{Cut, EngineRun, EngineState, ensemble, stored};
+use super::{EngineRun, EngineState, ReducedTerm, ensemble, stored};
 use fem::FemError;
 use fem::robot::{Preset, Reading};
 use fem::session::{
-    FeRun, Job, Many, Progress, Settings, Source, Summary, finished_below, heights_mm, rounded, simulate_all,
+    FeRun, Many, Progress, RunJob, RunSettings, Source, Summary, finished_below, heights_mm, rounded, simulate_all,
 };
 use models::Scenario;
 use std::path::Path;
@@ -32,7 +32,7 @@ pub fn as_run(run: &FeRun) -> Option<EngineRun> {
         seed: about.setting("seed") as u64,
         stations_mm: about.readings[0].stations_m.iter().rev().skip(1).rev().map(|s| rounded(s * 1e3)).collect(),
         known: "assumed".into(),
-        cut: Cut::of(about).map_or(String::new(), |cut| cut.term.into()),
+        cut: ReducedTerm::of(about).map_or(String::new(), |cut| cut.term.into()),
         states: up.iter().map(state).collect(),
         down: down.iter().map(state).collect(),
     })
@@ -85,7 +85,7 @@ pub fn seed_jobs(
     robots: &[(Source, Scenario)],
     seeds: u64,
     pressures_kpa: Option<&[f64]>,
-) -> Result<Vec<Job>, FemError> {
+) -> Result<Vec<RunJob>, FemError> {
     let mut jobs = Vec::new();
     for (source, scenario) in robots {
         let own: Vec<f64> = source.robot_run()?.1.pressures_pa.iter().map(|p| rounded(p[0] * 1e-3)).collect();
@@ -95,7 +95,7 @@ pub fn seed_jobs(
             let kpa = pressures_kpa.map(<[f64]>::to_vec).or(is_planar.then(|| own.clone()));
             changes.extend(kpa.map(|kpa| ("pressures_kpa".to_string(), format!("{:?}", and_back(&kpa)))));
             let what = format!("{}, seed {seed}", scenario.name);
-            jobs.push(Job { source: source.with(&changes)?, what, folder: None });
+            jobs.push(RunJob { source: source.with(&changes)?, what, folder: None });
         }
     }
     Ok(jobs)
@@ -104,8 +104,8 @@ pub fn seed_jobs(
 /// Runs of robots, each problem once: read if they are there, else made or resumed. A run that a guard stopped is its
 /// error. Errors as for [`simulate_all`].
 pub fn runs_of(
-    jobs: &[Job],
-    settings: &Settings,
+    jobs: &[RunJob],
+    settings: &RunSettings,
     progress: Progress,
 ) -> Result<Vec<Result<EngineRun, FemError>>, FemError> {
     let Many { runs, .. } = simulate_all(jobs, settings, progress)?;

@@ -52,7 +52,7 @@ fn a_run_that_is_the_reduced_model_has_no_excess_and_nothing_that_carries_a_diff
 fn carried(scenario: &Scenario, without_mm: [f64; 2]) -> Option<Carrier> {
     let (_, run, pair) = run(0, 0.0);
     let pair = EnginePair { fe_mm: [0.0, pair.reduced_mm[1] / 1.2], ..pair };
-    let with_cut = |(cut, share): (&Cut, f64)| {
+    let with_cut = |(cut, share): (&ReducedTerm, f64)| {
         let mut other = EngineRun { cut: cut.term.into(), ..run.clone() };
         other.states[1].tip_mm = share * pair.fe_mm[1];
         other

@@ -4,7 +4,7 @@ use super::{Kinetic, PaperRun, Peak, mesh_name};
 use crate::study::engines::{as_it_is, as_run, is_paper};
 use crate::study::published::shipped_scenario;
 use fem::FemError;
-use fem::session::{FeRun, Job, Source, Summary, finished_below, mesh_keys, rounded};
+use fem::session::{FeRun, RunJob, Source, Summary, finished_below, mesh_keys, rounded};
 use models::Scenario;
 use std::path::Path;
 
@@ -24,7 +24,7 @@ pub fn jobs(
     robots: &[(Source, Scenario)],
     meshes: &[[f64; 2]],
     pressures_kpa: Option<&[f64]>,
-) -> Result<Vec<Job>, FemError> {
+) -> Result<Vec<RunJob>, FemError> {
     let mut jobs = Vec::new();
     for robot in robots {
         let kpa = pressures_kpa.map_or_else(|| own_pressures(robot), |kpa| Ok(kpa.to_vec()))?;
@@ -48,13 +48,13 @@ fn own_pressures((source, scenario): &(Source, Scenario)) -> Result<Vec<f64>, Fe
     Ok(kpa)
 }
 
-fn job((source, scenario): &(Source, Scenario), mesh_mm: [f64; 2], kpa: f64, base: &str) -> Result<Job, FemError> {
+fn job((source, scenario): &(Source, Scenario), mesh_mm: [f64; 2], kpa: f64, base: &str) -> Result<RunJob, FemError> {
     let mut changes =
         vec![("model".to_string(), "\"paper\"".to_string()), ("pressures_kpa".into(), format!("[{kpa}]"))];
     changes.extend(mesh_keys(&mesh_mm));
     changes.extend((base != "pinned").then(|| ("base".into(), format!("\"{base}\""))));
     let what = format!("{}, {}, {kpa} kPa, {base}", scenario.actuator.kind.name, mesh_name(mesh_mm));
-    Ok(Job { source: source.with(&changes)?, what, folder: None })
+    Ok(RunJob { source: source.with(&changes)?, what, folder: None })
 }
 
 /// All finished ones of the present engine, made by `ibr compare --paper` or by `ibr simulate`.

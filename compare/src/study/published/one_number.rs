@@ -81,7 +81,7 @@ pub fn one_number(name: &str) -> Result<OneNumber, CompareError> {
     let loads: Vec<Loads> = pressures.iter().map(|p| Loads::uniform(paper.protocol.body_pa, *p)).collect();
     let curve =
         |s: &Scenario| loads.iter().map(|l| Ok(1e3 * height(s, l)?)).collect::<Result<Vec<f64>, CompareError>>();
-    let aim = Aim { loads: loads[loads.len() - 1], wanted_m: actuator.d_max_m };
+    let aim = HeightTarget { loads: loads[loads.len() - 1], wanted_m: actuator.d_max_m };
     let (mut met_by, mut not_met_by) = (Vec::new(), Vec::new());
     if let Some(value) = aim.reached(0.0, policy::MOST_BENDING, &|b| bare.with_bending(b)) {
         let y_mm = curve(&bare.with_bending(value))?;
@@ -121,12 +121,12 @@ pub fn one_number(name: &str) -> Result<OneNumber, CompareError> {
     })
 }
 
-struct Aim {
+struct HeightTarget {
     loads: Loads,
     wanted_m: f64,
 }
 
-impl Aim {
+impl HeightTarget {
     /// The parameter that is varied and the value nearest neutral at which the effect alone meets the displacement.
     fn meets(&self, bare: &Scenario, effect: &Effect<'static>) -> Option<(&'static Parameter<'static>, f64)> {
         let p = effect.parameters.iter().find(|p| p.typical != p.neutral)?;

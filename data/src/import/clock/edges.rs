@@ -6,7 +6,7 @@ use super::track::Track;
 use crate::policy::{is_a_room, tolerance_act_pa, tolerance_body_pa};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Edge {
+pub(super) struct SignalEdge {
     /// When half of it has happened \[s\].
     pub t_s: f64,
     /// +1 or −1; 0 where the direction is not clear.
@@ -27,7 +27,7 @@ const LEAST_SHARE: f64 = 0.02;
 const ALONG: f64 = 0.3;
 
 /// Changes of the pressure between holds of a log.
-pub(super) fn of_log(times_s: &[f64], values_pa: [&[f64]; 2], options: &ImportOptions) -> Vec<Edge> {
+pub(super) fn of_log(times_s: &[f64], values_pa: [&[f64]; 2], options: &ImportOptions) -> Vec<SignalEdge> {
     let gauge = |values: &[f64]| {
         let lowest = values.iter().copied().fold(f64::INFINITY, f64::min);
         let room = options.room_pa.unwrap_or(if is_a_room(lowest) { lowest } else { 0.0 });
@@ -54,21 +54,21 @@ pub(super) fn of_log(times_s: &[f64], values_pa: [&[f64]; 2], options: &ImportOp
         let passed = (last + 1..=first).find(|k| (run.pressures_pa[which][*k] > half) == rises)?;
         let [t0, t1] = [times_s[passed - 1], times_s[passed]];
         let sign = if act { [-1, 1][usize::from(rises)] } else { 0 };
-        (act || body).then_some(Edge { t_s: 0.5 * (t0 + t1), sign, gap_s: t1 - t0 })
+        (act || body).then_some(SignalEdge { t_s: 0.5 * (t0 + t1), sign, gap_s: t1 - t0 })
     };
     kept.windows(2).filter_map(edge).take(MOST_EDGES + 1).collect()
 }
 
 /// The usual time between changes \[s\]: a quarter of them follow each other faster. Of a single change, its distance from the ends.
-pub(super) fn usual_gap_s(edges: &[Edge], ends_s: [f64; 2]) -> f64 {
+pub(super) fn usual_gap_s(edges: &[SignalEdge], ends_s: [f64; 2]) -> f64 {
     let mut gaps: Vec<f64> = edges.windows(2).map(|pair| pair[1].t_s - pair[0].t_s).collect();
     gaps.sort_by(f64::total_cmp);
-    let alone = |edge: &Edge| (edge.t_s - ends_s[0]).min(ends_s[1] - edge.t_s);
+    let alone = |edge: &SignalEdge| (edge.t_s - ends_s[0]).min(ends_s[1] - edge.t_s);
     gaps.get(gaps.len() / 4).copied().or(edges.first().map(alone)).unwrap_or(0.0)
 }
 
 /// Changes of the markers' places: the means after and before a time differ most there.
-pub(super) fn of_movement(track: &Track, gap_s: f64) -> Vec<Edge> {
+pub(super) fn of_movement(track: &Track, gap_s: f64) -> Vec<SignalEdge> {
     let times = &track.times;
     let steps = median(times.windows(2).map(|pair| pair[1] - pair[0]).collect()).unwrap_or(0.0);
     let window_s = (WINDOW * gap_s).max(1.5 * steps);
@@ -90,7 +90,7 @@ pub(super) fn of_movement(track: &Track, gap_s: f64) -> Vec<Edge> {
         let centre = (from..=to).map(|j| weight(j) * changes[j].t_s).sum::<f64>() / total;
         let along = changes[k].along / sizes[k];
         let sign = if along.abs() < ALONG { 0 } else { along.signum() as i8 };
-        found.push(Edge { t_s: centre, sign, gap_s: changes[k].gap_s });
+        found.push(SignalEdge { t_s: centre, sign, gap_s: changes[k].gap_s });
         if found.len() > MOST_EDGES {
             break;
         }
@@ -99,12 +99,12 @@ pub(super) fn of_movement(track: &Track, gap_s: f64) -> Vec<Edge> {
 }
 
 /// Whether there are so many that they are noise.
-pub(super) fn too_many(edges: &[Edge]) -> bool {
+pub(super) fn too_many(edges: &[SignalEdge]) -> bool {
     edges.len() > MOST_EDGES
 }
 
 /// Difference of the mean places within a window after and before the middle of two frames.
-struct Change {
+struct MeanShift {
     t_s: f64,
     gap_s: f64,
     size: f64,
@@ -112,7 +112,7 @@ struct Change {
     noise: f64,
 }
 
-fn changes(track: &Track, window_s: f64) -> Vec<Change> {
+fn changes(track: &Track, window_s: f64) -> Vec<MeanShift> {
     let times = &track.times;
     let sums: Vec<Vec<f64>> = track
         .columns
@@ -138,7 +138,7 @@ fn changes(track: &Track, window_s: f64) -> Vec<Change> {
         let [before, after] = [k + 1 - low, high - (k + 1)].map(|count| count as f64);
         let step = |sum: &Vec<f64>| (sum[high] - sum[k + 1]) / after - (sum[k + 1] - sum[low]) / before;
         let steps: Vec<f64> = sums.iter().map(step).collect();
-        Change {
+        MeanShift {
             t_s: 0.5 * (times[k] + times[k + 1]),
             gap_s: times[k + 1] - times[k],
             size: steps.iter().map(|s| s * s).sum::<f64>().sqrt(),
@@ -150,7 +150,7 @@ fn changes(track: &Track, window_s: f64) -> Vec<Change> {
 }
 
 /// Indices of the changes within a window around one.
-fn near(changes: &[Change], k: usize, window_s: f64) -> std::ops::Range<usize> {
+fn near(changes: &[MeanShift], k: usize, window_s: f64) -> std::ops::Range<usize> {
     let from = changes.partition_point(|change| change.t_s < changes[k].t_s - window_s);
     let to = changes.partition_point(|change| change.t_s <= changes[k].t_s + window_s);
     from..to

@@ -6,7 +6,7 @@ use super::super::holds::{SD_PER_STEP, median};
 const MOSTLY_NOISE: f64 = 0.5;
 
 /// Movement, pressure and branch of one frame.
-pub(super) struct Frame {
+pub(super) struct CameraFrame {
     pub moved: f64,
     pub act_pa: f64,
     /// Frames of one branch (rising or falling, one body pressure) share a function of the pressure.
@@ -15,7 +15,7 @@ pub(super) struct Frame {
 
 /// r = √(1 − Σ(m − f(P))² / Σ(m − m̄)²) with the best monotone function f of every branch; white noise, estimated from neighbours,
 /// is taken from both sums. `None` where the movement is hardly more than noise.
-pub(super) fn follows(frames: &[Frame]) -> Option<f64> {
+pub(super) fn follows(frames: &[CameraFrame]) -> Option<f64> {
     let count = frames.len() as f64;
     let steps = frames.windows(2).map(|pair| (pair[1].moved - pair[0].moved).abs()).collect();
     let noise = (SD_PER_STEP * median(steps)?).powi(2) * count;
@@ -24,10 +24,10 @@ pub(super) fn follows(frames: &[Frame]) -> Option<f64> {
     if all <= 0.0 || noise > MOSTLY_NOISE * all {
         return None;
     }
-    let mut sorted: Vec<&Frame> = frames.iter().collect();
+    let mut sorted: Vec<&CameraFrame> = frames.iter().collect();
     sorted.sort_by(|a, b| (a.branch, a.act_pa).partial_cmp(&(b.branch, b.act_pa)).unwrap_or(std::cmp::Ordering::Equal));
     let left = |sign: f64| -> f64 {
-        let of_branch = |frames: &[&Frame]| squares_left(frames.iter().map(|frame| sign * frame.moved));
+        let of_branch = |frames: &[&CameraFrame]| squares_left(frames.iter().map(|frame| sign * frame.moved));
         sorted.chunk_by(|a, b| a.branch == b.branch).map(of_branch).sum()
     };
     let left = (left(1.0).min(left(-1.0)) - noise).max(0.0);
@@ -59,8 +59,9 @@ mod tests {
 
     #[test]
     fn a_concave_movement_follows_and_an_unlike_one_does_not() {
-        let frames = |of: &dyn Fn(f64) -> f64| -> Vec<Frame> {
-            let frame = |k: usize| Frame { moved: of((k / 20) as f64), act_pa: (k / 20) as f64, branch: (true, 2) };
+        let frames = |of: &dyn Fn(f64) -> f64| -> Vec<CameraFrame> {
+            let frame =
+                |k: usize| CameraFrame { moved: of((k / 20) as f64), act_pa: (k / 20) as f64, branch: (true, 2) };
             (0..200).map(frame).collect()
         };
         assert!(follows(&frames(&f64::sqrt)).unwrap() > 0.999);

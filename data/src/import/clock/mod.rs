@@ -15,10 +15,10 @@ use super::options::{ImportOptions, Offset};
 use super::recording::Recording;
 use crate::error::ClockTracks;
 use crate::policy::{SAME_ACTUATOR_PA, tolerance_act_pa};
-use edges::Edge;
-use follows::{Frame, follows};
+use edges::SignalEdge;
+use follows::{CameraFrame, follows};
 pub(crate) use pairs::Clock;
-use pairs::{Candidate, Sides};
+use pairs::{ClockCandidate, TrackPair};
 use track::Track;
 
 /// Least correlation of movement and pressure.
@@ -58,8 +58,8 @@ pub(crate) fn agree(readings: &Readings, recording: &Recording, options: &Import
     let Some(track) = Track::of(recording) else { return unseen("no marker moves") };
     let (log, camera, gap_s) = changes(readings, &track, options);
     let sides =
-        Sides { camera: &camera, log: &log, camera_s: ends(&track.times), log_s: ends(readings.times_s), gap_s };
-    let judge = Judge::of(&sides, &track, readings, options, (TURN * (high - low)).max(SAME_ACTUATOR_PA));
+        TrackPair { camera: &camera, log: &log, camera_s: ends(&track.times), log_s: ends(readings.times_s), gap_s };
+    let judge = ClockJudge::of(&sides, &track, readings, options, (TURN * (high - low)).max(SAME_ACTUATOR_PA));
     match given {
         Some(clock) => judge.check(clock, recording, options.offset),
         None => judge.find(recording),
@@ -79,7 +79,7 @@ fn ends(times: &[f64]) -> [f64; 2] {
 }
 
 /// Changes of pressure and of movement, and the usual time between pressure changes \[s\].
-fn changes(readings: &Readings, track: &Track, options: &ImportOptions) -> (Vec<Edge>, Vec<Edge>, f64) {
+fn changes(readings: &Readings, track: &Track, options: &ImportOptions) -> (Vec<SignalEdge>, Vec<SignalEdge>, f64) {
     let log = edges::of_log(readings.times_s, readings.values_pa, options);
     let gap_s = edges::usual_gap_s(&log, ends(readings.times_s));
     let camera = if log.is_empty() { Vec::new() } else { edges::of_movement(track, gap_s) };
@@ -134,8 +134,8 @@ fn nothing(recording: &Recording, why: &str) -> [String; 2] {
     ]
 }
 
-struct Judge<'a> {
-    sides: &'a Sides<'a>,
+struct ClockJudge<'a> {
+    sides: &'a TrackPair<'a>,
     track: &'a Track,
     along: Vec<f64>,
     readings: &'a Readings<'a>,
@@ -143,18 +143,18 @@ struct Judge<'a> {
     frames_per_s: Option<f64>,
 }
 
-impl<'a> Judge<'a> {
+impl<'a> ClockJudge<'a> {
     /// The pressure turns where it comes back by `turn_pa`.
     fn of(
-        sides: &'a Sides<'a>,
+        sides: &'a TrackPair<'a>,
         track: &'a Track,
         readings: &'a Readings<'a>,
         options: &ImportOptions,
         turn_pa: f64,
-    ) -> Judge<'a> {
+    ) -> ClockJudge<'a> {
         let branches = super::holds::branches(readings.values_pa[1], turn_pa);
         let rising = branches.into_iter().flat_map(|(range, rising)| range.map(move |_| rising)).collect();
-        Judge { sides, track, along: track.along(), readings, rising, frames_per_s: options.frames_per_s }
+        ClockJudge { sides, track, along: track.along(), readings, rising, frames_per_s: options.frames_per_s }
     }
 
     /// Correlation of movement and pressure at a clock.
@@ -173,35 +173,35 @@ impl<'a> Judge<'a> {
             }
             let at = times_s.partition_point(|t| *t <= t_s).saturating_sub(1);
             let [body_pa, act_pa] = self.readings.values_pa.map(|values| values[at]);
-            act_pa.is_finite().then(|| Frame {
+            act_pa.is_finite().then(|| CameraFrame {
                 moved: *moved,
                 act_pa,
                 branch: (self.rising[at], (body_pa * 1e-3).round() as i64),
             })
         };
-        let frames: Vec<Frame> = self.track.times.iter().zip(&self.along).filter_map(frame).collect();
+        let frames: Vec<CameraFrame> = self.track.times.iter().zip(&self.along).filter_map(frame).collect();
         follows(&frames)
     }
 
-    fn explains(&self, candidate: &Candidate) -> bool {
-        let (paired, Sides { camera, log, .. }) = (candidate.pairs.len() as f64, self.sides);
+    fn explains(&self, candidate: &ClockCandidate) -> bool {
+        let (paired, TrackPair { camera, log, .. }) = (candidate.pairs.len() as f64, self.sides);
         paired >= PAIRED[0] * camera.len().min(log.len()) as f64
             && 2.0 * paired >= PAIRED[1] * (2.0 * paired + candidate.alone as f64)
             && self.follows(candidate.clock).is_some_and(|r| r >= FOLLOWS)
     }
 
     /// The clock that explains the recording best, then those that explain it as well; clocks that hardly differ are one.
-    fn explanations(&self) -> Vec<Candidate> {
-        let mut found: Vec<Candidate> =
+    fn explanations(&self) -> Vec<ClockCandidate> {
+        let mut found: Vec<ClockCandidate> =
             [false, true].into_iter().flat_map(|turned| self.sides.search(turned)).collect();
-        let off = |candidate: &Candidate| self.sides.squares(candidate) / candidate.pairs.len().max(1) as f64;
+        let off = |candidate: &ClockCandidate| self.sides.squares(candidate) / candidate.pairs.len().max(1) as f64;
         found.sort_by(|a, b| {
             (b.pairs.len(), b.score()).cmp(&(a.pairs.len(), a.score())).then(off(a).total_cmp(&off(b)))
         });
-        let mut kept: Vec<Candidate> = Vec::new();
+        let mut kept: Vec<ClockCandidate> = Vec::new();
         for candidate in found {
             let rivals =
-                |best: &Candidate| candidate.pairs.len() >= best.pairs.len() || candidate.score() >= best.score();
+                |best: &ClockCandidate| candidate.pairs.len() >= best.pairs.len() || candidate.score() >= best.score();
             let new = kept.iter().all(|known| self.differ(known, &candidate));
             if new && kept.first().is_none_or(rivals) && self.explains(&candidate) {
                 kept.push(candidate);
@@ -210,13 +210,13 @@ impl<'a> Judge<'a> {
         kept
     }
 
-    fn differ(&self, a: &Candidate, b: &Candidate) -> bool {
+    fn differ(&self, a: &ClockCandidate, b: &ClockCandidate) -> bool {
         let times = a.pairs.iter().chain(&b.pairs).map(|pair| self.sides.camera[pair[0]].t_s);
         times.map(|t_s| (a.clock.at(t_s) - b.clock.at(t_s)).abs()).fold(0.0, f64::max) > 0.5 * self.sides.gap_s
     }
 
     fn find(&self, recording: &Recording) -> Agreed {
-        let Sides { camera, log, .. } = self.sides;
+        let TrackPair { camera, log, .. } = self.sides;
         let found = self.explanations();
         let Some(best) = found.first() else {
             let counts =
@@ -241,8 +241,8 @@ impl<'a> Judge<'a> {
     }
 
     /// What to type for each of two clocks; an offset alone is refused where the clocks do not run alike.
-    fn which(&self, clocks: [&Candidate; 2], recording: &Recording) -> String {
-        let typed = |Candidate { clock: Clock { offset_s, rate }, .. }: &Candidate| {
+    fn which(&self, clocks: [&ClockCandidate; 2], recording: &Recording) -> String {
+        let typed = |ClockCandidate { clock: Clock { offset_s, rate }, .. }: &ClockCandidate| {
             let offset = format!("--clock-offset {offset_s:.2}s");
             match self.frames_per_s.filter(|_| !recording.in_seconds) {
                 _ if *rate == 1.0 => Some(offset),
@@ -258,7 +258,7 @@ impl<'a> Judge<'a> {
     }
 
     /// `is 3.40 s ahead of the camera's (7 of 7 changes)`.
-    fn words(&self, candidate: &Candidate, recording: &Recording) -> String {
+    fn words(&self, candidate: &ClockCandidate, recording: &Recording) -> String {
         let Clock { offset_s, rate } = candidate.clock;
         let most = self.sides.camera.len().max(self.sides.log.len());
         let rate = match self.frames_per_s.filter(|_| !recording.in_seconds) {
@@ -274,12 +274,12 @@ impl<'a> Judge<'a> {
         let [rising, turned] = given;
         let given = if turned.score() > rising.score() { turned } else { rising };
         let r = self.follows(clock);
-        let Sides { camera, log, .. } = self.sides;
+        let TrackPair { camera, log, .. } = self.sides;
         let enough = camera.len() >= SEVERAL && log.len() >= SEVERAL;
         let all = 2 * given.pairs.len() + given.alone;
         let apart = self.apart(&given);
         let found = if r.is_some() && !log.is_empty() { self.explanations() } else { Vec::new() };
-        let better = |c: &&Candidate| c.pairs.len() > given.pairs.len() && c.score() > given.score();
+        let better = |c: &&ClockCandidate| c.pairs.len() > given.pairs.len() && c.score() > given.score();
         let hardly = enough && all > 0 && 2.0 * given.pairs.len() as f64 <= HARDLY * all as f64;
         let why = if let Some(better) = found.iter().find(better) {
             format!("{} of {} changes of pressure have their movement", given.pairs.len(), better.pairs.len())
@@ -309,10 +309,10 @@ impl<'a> Judge<'a> {
     }
 
     /// How far a given clock is from its own pairs, if that is too much \[s\].
-    fn apart(&self, given: &Candidate) -> Option<f64> {
+    fn apart(&self, given: &ClockCandidate) -> Option<f64> {
         let (first, last) = (given.pairs.first()?, given.pairs.last()?);
         let fitted = self.sides.fitted(&given.pairs);
-        let gap = |edges: &[Edge], k: usize| -> f64 {
+        let gap = |edges: &[SignalEdge], k: usize| -> f64 {
             given.pairs.iter().map(|pair| edges[pair[k]].gap_s).sum::<f64>() / given.pairs.len() as f64
         };
         let allowed = LATE_S + gap(self.sides.camera, 0) + gap(self.sides.log, 1);

@@ -1,6 +1,6 @@
 //! Clocks that pair changes of movement with changes of pressure: shift and rate are fitted together.
 
-use super::edges::Edge;
+use super::edges::SignalEdge;
 
 /// The log's time is `offset_s + rate · t` of the camera's.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,9 +33,9 @@ const NEARLY: f64 = 2.5;
 const FINE_S: f64 = 0.05;
 
 /// Changes of both tracks, and when they begin and end.
-pub(super) struct Sides<'a> {
-    pub camera: &'a [Edge],
-    pub log: &'a [Edge],
+pub(super) struct TrackPair<'a> {
+    pub camera: &'a [SignalEdge],
+    pub log: &'a [SignalEdge],
     pub camera_s: [f64; 2],
     pub log_s: [f64; 2],
     /// Usual time between changes of the log \[s\].
@@ -44,7 +44,7 @@ pub(super) struct Sides<'a> {
 
 /// A clock with the changes that it pairs.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Candidate {
+pub(super) struct ClockCandidate {
     pub clock: Clock,
     /// Whether movement along the principal direction is towards lower pressure.
     pub turned: bool,
@@ -53,20 +53,20 @@ pub(super) struct Candidate {
     pub alone: usize,
 }
 
-impl Candidate {
+impl ClockCandidate {
     pub(super) fn score(&self) -> isize {
         self.pairs.len() as isize - self.alone as isize
     }
 }
 
-impl Sides<'_> {
+impl TrackPair<'_> {
     /// How far two changes of one pair are apart at most \[s\].
-    pub(super) fn tolerance_s(&self, camera: &Edge, log: &Edge) -> f64 {
+    pub(super) fn tolerance_s(&self, camera: &SignalEdge, log: &SignalEdge) -> f64 {
         (camera.gap_s + log.gap_s).clamp(APART[0] * self.gap_s, APART[1] * self.gap_s)
     }
 
     /// What a clock pairs, within `wide` times the tolerance.
-    pub(super) fn paired(&self, clock: Clock, turned: bool, wide: f64) -> Candidate {
+    pub(super) fn paired(&self, clock: Clock, turned: bool, wide: f64) -> ClockCandidate {
         let mut pairs: Vec<[usize; 2]> = Vec::new();
         let mut next = 0;
         for (i, edge) in self.camera.iter().enumerate() {
@@ -89,12 +89,12 @@ impl Sides<'_> {
         let cameras = self.camera.iter().filter(|edge| inside(clock.at(edge.t_s), self.log_s)).count();
         let logs = self.log.iter().filter(|edge| inside(edge.t_s, [begin, end])).count();
         let alone = (cameras + logs).saturating_sub(2 * pairs.len());
-        Candidate { clock, turned, pairs, alone }
+        ClockCandidate { clock, turned, pairs, alone }
     }
 
     /// All clocks that pair as many changes as the best or have as few without partner: one for each way of pairing.
-    pub(super) fn search(&self, turned: bool) -> Vec<Candidate> {
-        let mut found: Vec<Candidate> = Vec::new();
+    pub(super) fn search(&self, turned: bool) -> Vec<ClockCandidate> {
+        let mut found: Vec<ClockCandidate> = Vec::new();
         let mut most = 0;
         for clock in self.proposed() {
             let mut candidate = self.paired(clock, turned, 1.0);
@@ -145,13 +145,13 @@ impl Sides<'_> {
     }
 
     /// Squares of the distances within pairs \[s²\].
-    pub(super) fn squares(&self, candidate: &Candidate) -> f64 {
+    pub(super) fn squares(&self, candidate: &ClockCandidate) -> f64 {
         let off = |[i, j]: &[usize; 2]| self.log[*j].t_s - candidate.clock.at(self.camera[*i].t_s);
         candidate.pairs.iter().map(|pair| off(pair).powi(2)).sum()
     }
 
     /// The largest distance within a pair, and of changes that only just have no partner, beyond the time between samples \[s\].
-    pub(super) fn farthest_s(&self, candidate: &Candidate) -> f64 {
+    pub(super) fn farthest_s(&self, candidate: &ClockCandidate) -> f64 {
         let wider = self.paired(candidate.clock, candidate.turned, NEARLY);
         let off = |[i, j]: &[usize; 2]| {
             let (camera, log) = (&self.camera[*i], &self.log[*j]);

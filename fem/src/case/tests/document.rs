@@ -39,7 +39,7 @@ fn every_key_every_generator_and_every_law_is_in_the_document() {
 }
 
 /// Numbers whose row has their bounds, or says in words what is accepted.
-fn have_rows_with_bounds<S>(file: &str, keys: &[Key<S>], in_words: &[&str]) {
+fn have_rows_with_bounds<S>(file: &str, keys: &[DeclaredKey<S>], in_words: &[&str]) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs").join(file);
     let document = std::fs::read_to_string(path).unwrap();
     let rows: Vec<_> = document.lines().filter(|line| line.starts_with("| `")).collect();

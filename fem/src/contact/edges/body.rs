@@ -1,8 +1,8 @@
 //! Pairs that can meet, and the search for them.
 
 use super::super::follow::Searched;
-use super::super::surface::{Lists, Surface};
-use super::chunk::{Chunk, PAIRS, nodes};
+use super::super::surface::{ContactSurface, PackedLists};
+use super::chunk::{EdgeChunk, PAIRS, nodes};
 use super::pair::Pair;
 use super::sides::Sides;
 use crate::vec3::{Nodes, V3, padded};
@@ -19,7 +19,7 @@ const DAMPING: f64 = 0.1;
 
 /// Forces that changed the last step.
 #[derive(Debug, Clone, Default, serde::Serialize, serde::Deserialize)]
-pub(super) struct Held {
+pub(super) struct ForceMemory {
     pub forces: Vec<(u32, V3)>,
     pub before_m: Vec<[f64; 4]>,
     pub lost_j: f64,
@@ -38,13 +38,13 @@ pub struct Edges {
     pub(super) thickness_m: f64,
     pub(super) reach_m: f64,
     pub(super) skin_m: f64,
-    pub(super) chunks: Vec<Chunk>,
+    pub(super) chunks: Vec<EdgeChunk>,
     /// Chunks of every node.
-    pub(super) around: Lists,
+    pub(super) around: PackedLists,
     pub(super) searched: Searched,
     pub(super) stored_j: f64,
     pub(super) lost_j: f64,
-    pub(super) held: Held,
+    pub(super) held: ForceMemory,
 }
 
 impl Edges {
@@ -60,7 +60,7 @@ impl Edges {
         dt_s: f64,
         driven: &[[bool; 3]],
     ) -> Result<Edges, FemError> {
-        let surface = Surface::new(mesh, &settings.parts)?;
+        let surface = ContactSurface::new(mesh, &settings.parts)?;
         let stiffness_1_s2 = SHARE / (dt_s * dt_s);
         let x: Vec<[f64; 4]> = mesh.starts().into_iter().map(padded).collect();
         let mobility = |(m, axes): (&f64, &[bool; 3])| axes.map(|a| if a || *m <= 0.0 { 0.0 } else { 1.0 / m });
@@ -112,7 +112,7 @@ impl Edges {
         self.lost_j += old.map(|gone| gone.holds_j()).sum::<f64>();
         let faces: Vec<_> = faces.into_iter().map(|(key, m)| (self.fresh(key, true), m)).collect();
         let chunks = pairs.chunks(PAIRS).chain(faces.chunks(PAIRS));
-        self.chunks = chunks.map(|pairs| Chunk::new(pairs, x, self.least_m())).collect();
+        self.chunks = chunks.map(|pairs| EdgeChunk::new(pairs, x, self.least_m())).collect();
         self.arrange();
         self.searched.note(x, self.skin_m);
     }
@@ -124,9 +124,9 @@ impl Edges {
 
     /// Lists the chunks of every node.
     pub(super) fn arrange(&mut self) {
-        let of = |(i, chunk): (usize, &Chunk)| chunk.nodes.iter().map(|n| (*n, i as u32)).collect::<Vec<_>>();
+        let of = |(i, chunk): (usize, &EdgeChunk)| chunk.nodes.iter().map(|n| (*n, i as u32)).collect::<Vec<_>>();
         let pairs: Vec<(u32, u32)> = self.chunks.iter().enumerate().flat_map(of).collect();
-        self.around = Lists::new(self.mass_kg.len(), &pairs);
+        self.around = PackedLists::new(self.mass_kg.len(), &pairs);
     }
 
     fn fresh(&self, key: [u32; 2], face: bool) -> Pair {
@@ -151,7 +151,7 @@ impl Edges {
     }
 
     /// What a checkpoint held of a chunk, with what its keys give again; `None` if it does not fit.
-    pub(super) fn fitting(&self, saved: Chunk) -> Option<Chunk> {
+    pub(super) fn fitting(&self, saved: EdgeChunk) -> Option<EdgeChunk> {
         let most = |face: bool| match face {
             true => [self.mass_kg.len(), self.sides.triangles.len()],
             false => [self.sides.list.len(); 2],
@@ -165,6 +165,6 @@ impl Edges {
         let nodes = nodes(pairs.iter());
         let fits =
             [saved.press_at_m.len(), saved.cross_at_m.len()] == [pairs.len(); 2] && saved.seen_m.len() == nodes.len();
-        fits.then_some(Chunk { pairs, nodes, ..saved })
+        fits.then_some(EdgeChunk { pairs, nodes, ..saved })
     }
 }

@@ -1,6 +1,6 @@
 //! Some dozens of pairs that are looked at and stepped together.
 
-use super::pair::{Pair, Touch};
+use super::pair::{EdgeTouch, Pair};
 use crate::vec3::{Nodes, V3, add, node, norm, scale, sub};
 
 pub(super) const PAIRS: usize = 64;
@@ -20,10 +20,10 @@ pub(super) struct Hit {
     pub nodes: [u32; 4],
     /// How far it may close \[m\].
     pub(crate) most_m: f64,
-    pub touch: Touch,
+    pub touch: EdgeTouch,
 }
 
-pub(super) struct Look<'a> {
+pub(super) struct MotionBounds<'a> {
     pub x: &'a [[f64; 4]],
     pub by: &'a [V3],
     /// How far the fastest node will have come.
@@ -35,7 +35,7 @@ pub(super) struct Look<'a> {
 
 /// Pairs in order of their keys; a checkpoint leaves out what they give again.
 #[derive(Debug, Clone, Default, serde::Serialize, serde::Deserialize)]
-pub(super) struct Chunk {
+pub(super) struct EdgeChunk {
     pub pairs: Vec<Pair>,
     /// Way at which the spring of each pair may push, and at which the two may meet.
     pub(crate) press_at_m: Vec<f64>,
@@ -58,11 +58,11 @@ pub(super) struct Chunk {
     pub hits: Vec<Hit>,
 }
 
-impl Chunk {
+impl EdgeChunk {
     /// Pairs with their distances at `x`.
-    pub(super) fn new(near: &[(Pair, f64)], x: &Nodes, least_m: f64) -> Chunk {
+    pub(super) fn new(near: &[(Pair, f64)], x: &Nodes, least_m: f64) -> EdgeChunk {
         let due = f64::NEG_INFINITY;
-        let mut chunk = Chunk { press_due_m: due, cross_due_m: due, ..Chunk::default() };
+        let mut chunk = EdgeChunk { press_due_m: due, cross_due_m: due, ..EdgeChunk::default() };
         for (mut pair, distance_m) in near.iter().copied() {
             chunk.press_at_m.push(pair.far_m(distance_m));
             chunk.cross_at_m.push(distance_m - stop_m(distance_m, least_m));
@@ -102,7 +102,7 @@ impl Chunk {
     }
 
     /// Finds pairs that would meet within the motion of a step.
-    pub(super) fn meet(&mut self, step: &Look) {
+    pub(super) fn meet(&mut self, step: &MotionBounds) {
         self.hits.clear();
         if step.path_m < self.cross_due_m {
             return;
@@ -128,7 +128,7 @@ impl Chunk {
         self.cross_due_m = step.path_m + 0.5 * (least(&self.cross_at_m) - self.way_m - moved_m);
     }
 
-    fn try_to_meet(&mut self, at: usize, step: &Look, moved_m: f64) {
+    fn try_to_meet(&mut self, at: usize, step: &MotionBounds, moved_m: f64) {
         let pair = &self.pairs[at];
         let now = pair.touch(step.x);
         if now.distance_m < step.one_m {

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use rayon::prelude::*;
 
 use super::body::Edges;
-use super::chunk::{Chunk, Hit, Look};
+use super::chunk::{EdgeChunk, Hit, MotionBounds};
 use crate::contact::push;
 use crate::vec3::{Nodes, V3, along, dot, node, sub};
 
@@ -15,7 +15,7 @@ const MOST_ROUNDS: usize = 200;
 /// Two closer than this share of the gap are one.
 const ONE: f64 = 1e-4;
 
-pub(crate) struct Step<'a> {
+pub(crate) struct EdgeStep<'a> {
     pub x: &'a [[f64; 4]],
     pub v: &'a [[f64; 4]],
     /// Time between the middles of the last step and this one \[s\].
@@ -26,7 +26,7 @@ pub(crate) struct Step<'a> {
 
 impl Edges {
     /// Adds the forces that keep pairs from meeting in the step; all other forces are in `force`.
-    pub(crate) fn hold(&mut self, step: &Step, force: &mut Nodes) {
+    pub(crate) fn hold(&mut self, step: &EdgeStep, force: &mut Nodes) {
         let (one_m, least_m) = (ONE * self.gap_m.min(self.thickness_m), self.least_m());
         let mut motion: Vec<V3> = (0..step.x.len()).map(|i| self.motion(step, force, i)).collect();
         let start_m = self.searched.path_m;
@@ -35,7 +35,7 @@ impl Edges {
         let mut due = vec![true; self.chunks.len()];
         let (mut changed, mut zones) = (BTreeSet::new(), Zones::default());
         for round in 0..MOST_ROUNDS {
-            let look = Look { x: step.x, by: &motion, path_m: self.searched.path_m, one_m, least_m };
+            let look = MotionBounds { x: step.x, by: &motion, path_m: self.searched.path_m, one_m, least_m };
             let hits = meetings(&mut self.chunks, &look, &due);
             if hits.is_empty() {
                 break;
@@ -63,7 +63,7 @@ impl Edges {
     }
 
     /// Motion of a node in the step under these forces.
-    fn motion(&self, step: &Step, force: &Nodes, i: usize) -> V3 {
+    fn motion(&self, step: &EdgeStep, force: &Nodes, i: usize) -> V3 {
         let half = 0.5 * step.damping_1_s * step.dv_s;
         let (keep, gain) = ((1.0 - half) / (1.0 + half), step.dv_s / (1.0 + half));
         let (v, f, w) = (step.v[i], force[i], self.mobility_1_kg[i]);
@@ -112,7 +112,7 @@ impl Edges {
     }
 
     /// Turns changed motions into forces, and adds up their work.
-    fn book(&mut self, step: &Step, changed: &BTreeSet<u32>, motion: &[V3], force: &mut Nodes) {
+    fn book(&mut self, step: &EdgeStep, changed: &BTreeSet<u32>, motion: &[V3], force: &mut Nodes) {
         if self.held.before_m.is_empty() {
             self.held.before_m = step.x.to_vec();
         }
@@ -135,7 +135,7 @@ impl Edges {
 }
 
 /// Pairs of the chunks that are due that would meet.
-fn meetings(chunks: &mut [Chunk], look: &Look, due: &[bool]) -> Vec<Hit> {
+fn meetings(chunks: &mut [EdgeChunk], look: &MotionBounds, due: &[bool]) -> Vec<Hit> {
     chunks.par_iter_mut().zip(due).filter(|(_, due)| **due).for_each(|(chunk, _)| chunk.meet(look));
     chunks.iter_mut().flat_map(|chunk| chunk.hits.drain(..)).collect()
 }

@@ -53,11 +53,11 @@ use crate::bytes::{pack, unpack};
 use crate::transient::{dissipated, stored};
 use crate::{Tick, Transient};
 pub use body::Edges;
-use body::Held;
-use chunk::Chunk;
+use body::ForceMemory;
+use chunk::EdgeChunk;
 
 /// What edges cannot find again from positions, after the number of sides.
-type Saved = (usize, Searched, [f64; 2], Held, Vec<Chunk>);
+type Saved = (usize, Searched, [f64; 2], ForceMemory, Vec<EdgeChunk>);
 
 impl Term for Edges {
     fn line(&self) -> LedgerLine {

@@ -36,7 +36,7 @@ pub(super) struct Pair {
 }
 
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Touch {
+pub(super) struct EdgeTouch {
     pub distance_m: f64,
     /// From the second to the first.
     pub normal: V3,
@@ -48,7 +48,7 @@ pub(super) struct Touch {
 
 /// Closest points of a node and a triangle or of two segments.
 #[inline]
-pub(super) fn touch(face: bool, [a, b, c, d]: [V3; 4]) -> Touch {
+pub(super) fn touch(face: bool, [a, b, c, d]: [V3; 4]) -> EdgeTouch {
     let (weights, r, inside) = if face {
         let [u, v, w] = on_triangle(a, b, c, d);
         ([1.0, -u, -v, -w], sub(a, blend([u, v, w], b, c, d)), false)
@@ -57,7 +57,7 @@ pub(super) fn touch(face: bool, [a, b, c, d]: [V3; 4]) -> Touch {
     };
     let distance_m = norm(r);
     let normal = if distance_m > 0.0 { scale(r, 1.0 / distance_m) } else { [0.0; 3] };
-    Touch { distance_m, normal, weights, inside }
+    EdgeTouch { distance_m, normal, weights, inside }
 }
 
 /// Weights of the ends of two segments, vector from the second to the first, and whether they cross within their ends
@@ -93,14 +93,14 @@ impl Pair {
     }
 
     #[inline]
-    pub(super) fn touch(&self, x: &Nodes) -> Touch {
+    pub(super) fn touch(&self, x: &Nodes) -> EdgeTouch {
         touch(self.face, self.corners(x))
     }
 
     /// Force of a step; eases the rest gap. The loss is the work of the step less what the spring stores.
     ///
     /// Nothing pushes at once: a pair that comes near keeps what it has, and gets its gap back as far as it parts.
-    pub(super) fn press(&mut self, touch: &Touch, dt_s: f64, floor_m: f64, sums: &mut [f64; 2]) -> f64 {
+    pub(super) fn press(&mut self, touch: &EdgeTouch, dt_s: f64, floor_m: f64, sums: &mut [f64; 2]) -> f64 {
         let idle = self.deep_m == 0.0;
         if !touch.inside || (idle && touch.distance_m >= self.rest_m) {
             self.on = false;
@@ -143,7 +143,7 @@ impl Pair {
     }
 
     /// Motion of the two against each other until the spring must be looked at again.
-    pub(crate) fn idle_m(&self, touch: &Touch) -> f64 {
+    pub(crate) fn idle_m(&self, touch: &EdgeTouch) -> f64 {
         let gap_m = if touch.inside { self.rest_m } else { self.wanted_m };
         if self.on { 0.0 } else { (touch.distance_m - gap_m).max(SLACK * self.wanted_m) }
     }
@@ -167,7 +167,7 @@ impl Pair {
 
     /// Touch when the distance falls to `stop` within the motion `by` (additive continuous collision
     /// detection: Li et al., ACM Trans. Graph. 40 (2021), algorithm 1).
-    pub(super) fn meets(&self, now: &Touch, x: &Nodes, by: &[V3], stop: f64) -> Option<Touch> {
+    pub(super) fn meets(&self, now: &EdgeTouch, x: &Nodes, by: &[V3], stop: f64) -> Option<EdgeTouch> {
         let mut motion = self.nodes.map(|n| by[n as usize]);
         let mean = scale(motion.iter().fold([0.0; 3], |sum, m| add(sum, *m)), 0.25);
         motion.iter_mut().for_each(|m| *m = sub(*m, mean));

@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 
 use super::super::closest::TRIANGLES;
-use super::super::search::{Grid, Placed};
-use super::super::surface::{NONE, Surface};
+use super::super::search::{Placed, PointGrid};
+use super::super::surface::{ContactSurface, NONE};
 use super::pair::touch;
 use crate::vec3::{Nodes, V3, node};
 
@@ -19,7 +19,7 @@ pub(super) struct Sides {
 }
 
 impl Sides {
-    pub(super) fn new(surface: &Surface) -> Sides {
+    pub(super) fn new(surface: &ContactSurface) -> Sides {
         let mut sides = Sides::default();
         for e in 0..surface.elements.len() {
             let nodes = surface.elements[e];
@@ -88,7 +88,7 @@ type Bounds = [[f64; 8]; 2];
 
 /// Items by the column of their middle, with their boxes, which are larger by the radius.
 struct Boxes {
-    grid: Grid,
+    grid: PointGrid,
     boxes: Vec<Bounds>,
     /// Largest half box along each axis.
     half_m: V3,
@@ -130,7 +130,7 @@ impl Boxes {
         let middle = |(i, bounds)| Placed { place: place(bounds), item: i as u32 };
         let places = boxes.iter().enumerate().map(middle).collect();
         let size_m = half_m.iter().fold(0.0, |most: f64, h| most.max(*h));
-        Boxes { grid: Grid::new(places, size_m), boxes, half_m }
+        Boxes { grid: PointGrid::new(places, size_m), boxes, half_m }
     }
 
     /// Items from number `first` on whose boxes touch the box of `nodes`, sorted.

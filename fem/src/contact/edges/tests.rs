@@ -4,7 +4,7 @@ use models::fabrics::NeoHookean;
 use models::{Pose, Term};
 
 use super::Edges;
-use super::hold::Step;
+use super::hold::EdgeStep;
 use crate::contact::tests::rig::{Noise, masses, sheet};
 use crate::problem::{self, Ply, Section};
 use crate::shared_tests::{piercings, pouch};
@@ -33,7 +33,7 @@ fn step(edges: &mut Edges, x: &[[f64; 4]], v: &[[f64; 4]]) -> Vec<[f64; 4]> {
     let tick = Tick { step: 0, time_s: 0.0, dt_s: DT_S };
     edges.advance(&Pose::nodes(x.as_flattened()), &tick, force.as_flattened_mut());
     force.fill([0.0; 4]);
-    edges.hold(&Step { x, v, dv_s: DT_S, dt_s: DT_S, damping_1_s: 0.0 }, &mut force);
+    edges.hold(&EdgeStep { x, v, dv_s: DT_S, dt_s: DT_S, damping_1_s: 0.0 }, &mut force);
     let mass = edges.mass_kg.clone();
     (0..x.len()).map(|i| std::array::from_fn(|k| v[i][k] + DT_S / mass[i] * force[i][k])).collect()
 }

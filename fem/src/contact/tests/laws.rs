@@ -1,7 +1,7 @@
 use models::{Pose, Term};
 
 use super::rig::{Noise, Rig, flat, masses};
-use crate::contact::Contact;
+use crate::contact::LayerContact;
 use crate::mesh::Mesh;
 use crate::problem;
 use crate::vec3::{add, cross, node};
@@ -12,12 +12,12 @@ pub(crate) fn settings(friction: f64) -> problem::Contact {
 }
 
 /// Two sheets of different mesh and direction, 0.1 mm apart; pressing them brings all nodes into contact.
-fn pressed(friction: f64) -> (Contact, Vec<[f64; 4]>) {
+fn pressed(friction: f64) -> (LayerContact, Vec<[f64; 4]>) {
     let mut mesh = Mesh::default();
     flat(&mut mesh, 0, 10, 0.04, [0.0; 3], 0.0);
     flat(&mut mesh, 1, 9, 0.036, [0.001, 0.0005, 1e-4], 0.3);
     let mass = masses(&mesh);
-    let mut contact = Contact::new(&mesh, &settings(friction), &mass, 4e-6).unwrap();
+    let mut contact = LayerContact::new(&mesh, &settings(friction), &mass, 4e-6).unwrap();
     let mut noise = Noise(7);
     let mut x: Vec<[f64; 4]> = Vec::new();
     for (i, p) in mesh.points.iter().enumerate() {

@@ -2,7 +2,7 @@
 
 use models::{Pose, RowKind};
 
-use crate::contact::Contact;
+use crate::contact::LayerContact;
 use crate::mesh::{Mesh, Part};
 use crate::vec3::{V3, add, along, cross, dot, norm, scale, sub};
 use crate::{FemError, problem};
@@ -49,7 +49,7 @@ pub(crate) struct Rig {
     pub mesh: Mesh,
     pub mass: Vec<f64>,
     springs: Vec<(u32, u32, f64)>,
-    pub contact: Contact,
+    pub contact: LayerContact,
     pub x: Vec<[f64; 4]>,
     pub v: Vec<[f64; 4]>,
     pub dt: f64,
@@ -81,7 +81,7 @@ impl Rig {
         springs.iter().for_each(|s| [s.0, s.1].iter().for_each(|n| stiff[*n as usize] += 2.0 * STIFF));
         let omega2 = stiff.iter().zip(&mass).map(|(k, m)| k / m).fold(0.0, f64::max);
         let dt = 0.6 * 2.0 / f64::sqrt(omega2);
-        let contact = Contact::new(&mesh, settings, &mass, dt)?;
+        let contact = LayerContact::new(&mesh, settings, &mass, dt)?;
         let x: Vec<_> = (0..mass.len()).map(|i| mesh.start_of(i)).map(|p| [p[0], p[1], p[2], 0.0]).collect();
         Ok(Rig {
             v: vec![[0.0; 4]; x.len()],

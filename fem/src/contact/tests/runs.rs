@@ -1,7 +1,7 @@
 use super::laws::settings;
 use super::rig::{Noise, Rig, flat, sheet};
 use crate::Transient;
-use crate::contact::Contact;
+use crate::contact::LayerContact;
 use crate::contact::closest;
 use crate::contact::closest::nearest;
 use crate::mesh::Mesh;
@@ -70,7 +70,7 @@ fn nodes_that_come_through_a_layer_are_counted_with_the_place_of_the_first_and_r
     assert!(nodes >= 81 && could == all, "{nodes} of {could}");
     assert_eq!(part == 0, first.node >= 441);
     assert!(first.place_m[2].abs() < 1.5e-3 && first.time_s < 3e-5, "{first:?}");
-    let mut other = Contact::new(&rig.mesh, &settings(0.0), &rig.mass, rig.dt).unwrap();
+    let mut other = LayerContact::new(&rig.mesh, &settings(0.0), &rig.mass, rig.dt).unwrap();
     assert!(other.restore(&rig.contact.save()).is_some());
     assert_eq!(other.passed(), rig.contact.passed());
 }

@@ -98,7 +98,7 @@ fn wrong_settings_are_said() {
     let refuse = |change: &dyn Fn(&mut crate::problem::Contact), dt: f64, word: &str| {
         let mut settings = settings(0.0);
         change(&mut settings);
-        let message = crate::contact::Contact::new(&mesh, &settings, &mass, dt).unwrap_err().to_string();
+        let message = crate::contact::LayerContact::new(&mesh, &settings, &mass, dt).unwrap_err().to_string();
         assert!(message.contains(word), "{message}");
     };
     refuse(&|s| s.friction = -1.0, 1e-6, "friction");
@@ -107,7 +107,7 @@ fn wrong_settings_are_said() {
     refuse(&|_| (), 0.0, "time step");
     let mut turned = mesh.clone();
     turned.parts[0].quads[0].swap(1, 3);
-    let message = crate::contact::Contact::new(&turned, &settings(0.0), &mass, 1e-6).unwrap_err().to_string();
+    let message = crate::contact::LayerContact::new(&turned, &settings(0.0), &mass, 1e-6).unwrap_err().to_string();
     assert!(message.contains("opposite ways") && message.contains("element 1"), "{message}");
 }
 

@@ -4,9 +4,9 @@ use super::build::MeshFile;
 use super::scan::Scan;
 use super::{abaqus, gmsh, stl};
 
-pub(super) struct Format {
+pub(super) struct MeshFormat {
     pub(super) name: &'static str,
-    is: fn(&Head) -> bool,
+    is: fn(&FileHead) -> bool,
     pub(super) read: Read,
 }
 
@@ -16,7 +16,7 @@ pub(super) enum Read {
     Bytes(fn(&[u8]) -> Result<MeshFile, String>),
 }
 
-struct Head<'a> {
+struct FileHead<'a> {
     bytes: &'a [u8],
     /// The first line that is neither blank nor a comment.
     line: &'a str,
@@ -24,11 +24,11 @@ struct Head<'a> {
 }
 
 /// All formats; the first that fits is taken.
-static FORMATS: [Format; 4] = [
-    Format { name: "STL (binary)", is: |head| stl::is_binary(head.bytes), read: Read::Bytes(stl::read_binary) },
-    Format { name: "STL", is: |head| head.word == "solid", read: Read::Text(stl::read) },
-    Format { name: "Gmsh", is: |head| head.word.starts_with('$'), read: Read::Text(gmsh::read) },
-    Format { name: "Abaqus", is: |head| head.line.starts_with('*'), read: Read::Text(abaqus::read) },
+static FORMATS: [MeshFormat; 4] = [
+    MeshFormat { name: "STL (binary)", is: |head| stl::is_binary(head.bytes), read: Read::Bytes(stl::read_binary) },
+    MeshFormat { name: "STL", is: |head| head.word == "solid", read: Read::Text(stl::read) },
+    MeshFormat { name: "Gmsh", is: |head| head.word.starts_with('$'), read: Read::Text(gmsh::read) },
+    MeshFormat { name: "Abaqus", is: |head| head.line.starts_with('*'), read: Read::Text(abaqus::read) },
 ];
 
 /// Formats that are known and not read, by what they begin with.
@@ -49,12 +49,12 @@ const OTHERS: [(&str, &str); 14] = [
     ("-1", "Universal (UNV)"),
 ];
 
-pub(super) fn format(bytes: &[u8]) -> Result<&'static Format, String> {
+pub(super) fn format(bytes: &[u8]) -> Result<&'static MeshFormat, String> {
     let text = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]);
     let text = text.trim_start_matches('\u{feff}');
     let lines = || text.lines().map(str::trim).filter(|line| !line.is_empty());
     let first = lines().find(|line| !line.starts_with('#')).unwrap_or("");
-    let head = Head { bytes, line: first, word: first.split_whitespace().next().unwrap_or("") };
+    let head = FileHead { bytes, line: first, word: first.split_whitespace().next().unwrap_or("") };
     if let Some(format) = FORMATS.iter().find(|format| (format.is)(&head)) {
         return Ok(format);
     }

@@ -15,7 +15,7 @@ const HEADER: usize = 84;
 const FACET: usize = 50;
 
 /// A facet and the solid it belongs to.
-struct Facet {
+struct SolidFacet {
     corners: [[f64; 3]; 3],
     solid: usize,
 }
@@ -35,7 +35,7 @@ pub(super) fn read_binary(bytes: &[u8]) -> Result<MeshFile, String> {
         if corners.as_flattened().iter().any(|x| !x.is_finite()) {
             return Err(format!("facet {} has a corner that is not a number", i + 1));
         }
-        facets.push(Facet { corners, solid: 0 });
+        facets.push(SolidFacet { corners, solid: 0 });
     }
     joined(&facets, &["sheet".to_string()])
 }
@@ -52,7 +52,7 @@ pub(super) fn read(scan: &mut Scan) -> Result<MeshFile, String> {
                     .try_into()
                     .map_err(|found: Vec<[f64; 3]>| format!("a facet has 3 corners, this one {}", found.len()))?;
                 let solid = solids.len().checked_sub(1).ok_or("a facet before the first `solid`")?;
-                facets.push(Facet { corners, solid });
+                facets.push(SolidFacet { corners, solid });
             }
             ["facet", ..] | ["outer", "loop"] | ["endfacet"] => {}
             ["endsolid", ..] => {
@@ -74,7 +74,7 @@ pub(super) fn read(scan: &mut Scan) -> Result<MeshFile, String> {
 }
 
 #[derive(Clone, Copy)]
-struct Side {
+struct FacetSide {
     facet: usize,
     from: usize,
     to: usize,
@@ -87,16 +87,16 @@ fn bits(place: V3) -> [u64; 3] {
 }
 
 /// The mesh in which facets share nodes along their common sides.
-fn joined(facets: &[Facet], solids: &[String]) -> Result<MeshFile, String> {
+fn joined(facets: &[SolidFacet], solids: &[String]) -> Result<MeshFile, String> {
     if facets.is_empty() {
         return Err(cut_off("the first facet"));
     }
-    let mut sides: HashMap<[[u64; 3]; 2], Vec<Side>> = HashMap::new();
+    let mut sides: HashMap<[[u64; 3]; 2], Vec<FacetSide>> = HashMap::new();
     let mut order = Vec::new();
-    for (facet, Facet { corners, .. }) in facets.iter().enumerate() {
+    for (facet, SolidFacet { corners, .. }) in facets.iter().enumerate() {
         for k in 0..3 {
             let (a, b) = (bits(corners[k]), bits(corners[(k + 1) % 3]));
-            let side = Side { facet, from: 3 * facet + k, to: 3 * facet + (k + 1) % 3, ascending: a < b };
+            let side = FacetSide { facet, from: 3 * facet + k, to: 3 * facet + (k + 1) % 3, ascending: a < b };
             let meeting = sides.entry([a.min(b), a.max(b)]).or_default();
             if meeting.is_empty() {
                 order.push([a.min(b), a.max(b)]);
@@ -110,7 +110,7 @@ fn joined(facets: &[Facet], solids: &[String]) -> Result<MeshFile, String> {
         passing += usize::from(join(&mut node, &sides[&key], facets));
     }
     let mut builder = Builder::default();
-    for (facet, Facet { corners, solid }) in facets.iter().enumerate() {
+    for (facet, SolidFacet { corners, solid }) in facets.iter().enumerate() {
         let roots = [0, 1, 2].map(|k| root(&mut node, 3 * facet + k) as u64);
         for (root, corner) in roots.iter().zip(corners) {
             // A corner that is there already is the same node.
@@ -130,14 +130,14 @@ fn joined(facets: &[Facet], solids: &[String]) -> Result<MeshFile, String> {
 }
 
 /// Joins the facets that meet at a side; true if sheets pass each other there.
-fn join(node: &mut [usize], meeting: &[Side], facets: &[Facet]) -> bool {
-    let normal = |side: &Side| area(&facets[side.facet].corners);
-    let cosine = |a: &Side, b: &Side| dot(normal(a), normal(b)) / (norm(normal(a)) * norm(normal(b)));
+fn join(node: &mut [usize], meeting: &[FacetSide], facets: &[SolidFacet]) -> bool {
+    let normal = |side: &FacetSide| area(&facets[side.facet].corners);
+    let cosine = |a: &FacetSide, b: &FacetSide| dot(normal(a), normal(b)) / (norm(normal(a)) * norm(normal(b)));
     let first = &meeting[0];
     let flat = meeting.len() > 2 && meeting.iter().all(|other| cosine(first, other).abs() > FLAT);
     for (i, side) in meeting.iter().enumerate() {
         // Neighbours in one sheet run along their common side in opposite ways, and look the same way.
-        let goes_on = |other: &&Side| !flat || (other.ascending != side.ascending && cosine(side, other) > 0.0);
+        let goes_on = |other: &&FacetSide| !flat || (other.ascending != side.ascending && cosine(side, other) > 0.0);
         for other in meeting[i + 1..].iter().filter(goes_on) {
             let [from, to] =
                 if other.ascending == side.ascending { [other.from, other.to] } else { [other.to, other.from] };

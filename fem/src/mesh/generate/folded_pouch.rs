@@ -88,35 +88,35 @@ pub fn folded_pouch(pouch: &FoldedPouch) -> Result<Mesh> {
 
 /// What a node belongs to, and so who shares it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-enum Joint {
+enum NodeOwner {
     Inside(usize, i8),
     /// Crease between this level and the next.
     Crease(usize, i8),
     Weld,
 }
 
-impl Joint {
+impl NodeOwner {
     /// Height at the start in gaps.
     fn height(self) -> f64 {
         match self {
-            Joint::Inside(level, _) => level as f64,
-            Joint::Crease(level, _) => level as f64 + 0.5,
-            Joint::Weld => 1.5,
+            NodeOwner::Inside(level, _) => level as f64,
+            NodeOwner::Crease(level, _) => level as f64 + 0.5,
+            NodeOwner::Weld => 1.5,
         }
     }
 
     /// Of the node in column `i` of `along` and at place `j` of `0..=last` across the pouch.
-    fn of(panel: &Panel, [i, along]: [usize; 2], [j, last, fold]: [usize; 3]) -> Joint {
+    fn of(panel: &Panel, [i, along]: [usize; 2], [j, last, fold]: [usize; 3]) -> NodeOwner {
         let (_, _, level, side) = *panel;
         if i == 0 || i == along {
-            return Joint::Weld;
+            return NodeOwner::Weld;
         }
         // Lower and upper half of a fold meet inside; both meet bottom and top at the edges of the pouch.
         match j {
-            0 => Joint::Crease(if level < 2 { 0 } else { 2 }, -1),
-            _ if j == last => Joint::Crease(if level < 2 { 0 } else { 2 }, 1),
-            _ if side == -1 && j == fold || side == 1 && j == last - fold => Joint::Crease(1, side),
-            _ => Joint::Inside(level, side),
+            0 => NodeOwner::Crease(if level < 2 { 0 } else { 2 }, -1),
+            _ if j == last => NodeOwner::Crease(if level < 2 { 0 } else { 2 }, 1),
+            _ if side == -1 && j == fold || side == 1 && j == last - fold => NodeOwner::Crease(1, side),
+            _ => NodeOwner::Inside(level, side),
         }
     }
 }
@@ -127,7 +127,7 @@ fn add(
     pouch: &FoldedPouch,
     between: usize,
     panel: &Panel,
-    known: &mut HashMap<(Joint, usize, usize), u32>,
+    known: &mut HashMap<(NodeOwner, usize, usize), u32>,
 ) -> Grid {
     let (fold, last) = (pouch.in_fold, 2 * pouch.in_fold + between);
     let (first, count) = match panel.3 {
@@ -137,7 +137,7 @@ fn add(
     };
     let key = |i: usize, j: usize| {
         let j = first + j;
-        (Joint::of(panel, [i, pouch.along], [j, last, fold]), i, j)
+        (NodeOwner::of(panel, [i, pouch.along], [j, last, fold]), i, j)
     };
     let place =
         |i: usize, j: usize| [i as f64 / pouch.along as f64 * pouch.length_m, across_m(pouch, between, first + j), 0.0];

@@ -34,7 +34,7 @@ struct Stencil {
 
 /// Rows of the bending matrix of one patch, numbered within the patch.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Bend {
+pub(super) struct BendingRows {
     stencils: Vec<Stencil>,
     shifts: Vec<i32>,
     common: Vec<f64>,
@@ -46,9 +46,9 @@ pub(super) struct Bend {
     value: Vec<f64>,
 }
 
-impl Bend {
+impl BendingRows {
     /// From the rows of the nodes `own` (numbers within the patch) among `places`; `local` turns a place into a number.
-    pub(super) fn new(matrix: &BendingMatrix, places: &[u32], own: &[u32], local: impl Fn(u32) -> u32) -> Bend {
+    pub(super) fn new(matrix: &BendingMatrix, places: &[u32], own: &[u32], local: impl Fn(u32) -> u32) -> BendingRows {
         let mut rows: Vec<Row> = vec![Vec::new(); places.len()];
         for i in own {
             let shift = |(j, value): (u32, f64)| (local(j) as i32 - *i as i32, value);
@@ -56,7 +56,7 @@ impl Bend {
             row.extend(matrix.row(places[*i as usize] as usize).map(shift));
             row.sort_by_key(|entry| entry.0);
         }
-        let mut bend = Bend { start: vec![0], ..Bend::default() };
+        let mut bend = BendingRows { start: vec![0], ..BendingRows::default() };
         let (mut next, mut known) = (0, Known::new());
         while let Some(i) = (next..rows.len()).find(|i| !rows[*i].is_empty()) {
             // A mixed group ends where a stretch begins, which is cheaper on its own.
@@ -113,7 +113,7 @@ impl Bend {
         self.stencils.is_empty() && self.single.is_empty()
     }
 
-    /// Places of `0..count` where [`Bend::apply`] writes nothing; none without bending, for then they are not read.
+    /// Places of `0..count` where [`BendingRows::apply`] writes nothing; none without bending, for then they are not read.
     pub(super) fn gaps(&self, count: usize) -> Gaps {
         if self.is_empty() {
             return Gaps::default();
@@ -234,7 +234,7 @@ fn shifts(rows: &[Row], first: usize) -> Option<Vec<i32>> {
 mod tests {
     use super::*;
 
-    struct Apply<'a>(&'a Bend, [&'a [f64]; 3], &'a [[f64; 4]], [&'a mut [f64]; 3]);
+    struct Apply<'a>(&'a BendingRows, [&'a [f64]; 3], &'a [[f64; 4]], [&'a mut [f64]; 3]);
 
     impl pulp::WithSimd for Apply<'_> {
         type Output = ();
@@ -268,7 +268,7 @@ mod tests {
         for nodes in [5, 8, 40, 131] {
             let matrix = matrix(nodes);
             let places: Vec<u32> = (0..nodes as u32).collect();
-            let bend = Bend::new(&matrix, &places, &places, |place| place);
+            let bend = BendingRows::new(&matrix, &places, &places, |place| place);
             let q: Vec<[f64; 4]> = (0..nodes).map(|i| [0, 1, 2, 3].map(|k| ((7 * i + k) as f64).sin())).collect();
             let room = nodes.next_multiple_of(LANES) + LANES;
             let axis = |k: usize| (0..room).map(|i| q.get(i).map_or(0.0, |q| q[k])).collect::<Vec<f64>>();

@@ -15,9 +15,9 @@ use models::fabrics::Past;
 use super::bending::BendingMatrix;
 use super::group::{ElementGroup, Item, LANES, RestShape, Stock};
 use super::kernel::Strain;
-use bend::Bend;
+use bend::BendingRows;
 use room::{Gaps, RoomNeeds};
-use runs::Stretch;
+use runs::NodeStretch;
 
 /// What one pass over a patch adds up, in SI units.
 #[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -42,7 +42,7 @@ pub(super) struct LoopKey {
 
 /// Groups with one key: first those in regular rows, then the others.
 #[derive(Debug, Clone)]
-struct Run {
+struct GroupRun {
     key: LoopKey,
     regular: Range<usize>,
     other: Range<usize>,
@@ -58,10 +58,10 @@ pub(super) struct Patch {
     /// Nodes of the patch, its own and its neighbours'.
     count: usize,
     /// All of them, and their places.
-    taken: Vec<Stretch>,
+    taken: Vec<NodeStretch>,
     /// The own ones, and their numbers among the own.
-    given: Vec<Stretch>,
-    runs: Vec<Run>,
+    given: Vec<NodeStretch>,
+    runs: Vec<GroupRun>,
     groups: Vec<ElementGroup>,
     shapes: Vec<RestShape>,
     stocks: Vec<Stock>,
@@ -69,7 +69,7 @@ pub(super) struct Patch {
     pub element: Vec<[u32; LANES]>,
     /// Own node and place in `scratch` of every corner force of elements outside regular rows, in the order of nodes.
     corners: Vec<(u32, u32)>,
-    bend: Bend,
+    bend: BendingRows,
     /// Strains of the step before, one per group.
     pub strains: Vec<Strain>,
     /// Memory of fabrics that have one; empty otherwise.
@@ -113,7 +113,7 @@ impl Patch {
         let numbers: BTreeMap<u32, u32> = places.iter().enumerate().map(|(i, place)| (*place, i as u32)).collect();
         let local = |place: u32| numbers[&place];
         let own: Vec<u32> = own_places.map(local).collect();
-        let bend = Bend::new(bending, &places, &own, local);
+        let bend = BendingRows::new(bending, &places, &own, local);
         let mut build = Build::new(nodes.clone());
         for (key, mut list) in items {
             list.sort_by_key(|item| (mesh_number[item.node[0] as usize], item.part, item.element));
@@ -184,7 +184,7 @@ impl<T> Distinct<T> {
 #[derive(Default)]
 struct Build {
     own: Range<usize>,
-    runs: Vec<Run>,
+    runs: Vec<GroupRun>,
     groups: Vec<ElementGroup>,
     shapes: Distinct<RestShape>,
     stocks: Distinct<Stock>,
@@ -225,7 +225,7 @@ impl Build {
             self.push(&of(items), 0);
             self.others += 1;
         }
-        self.runs.push(Run { key, regular: start..middle, other: middle..self.groups.len(), scratch });
+        self.runs.push(GroupRun { key, regular: start..middle, other: middle..self.groups.len(), scratch });
     }
 
     /// Reserves the places of a regular group's corner forces; false if another element has one of them.

@@ -3,15 +3,15 @@
 use std::sync::Arc;
 
 use models::Fabric;
-use models::fabrics::Kind;
+use models::fabrics::InlinedFabric;
 use pulp::Simd;
 
 use super::super::group::LANES;
 use super::super::kernel::{self, BatchInputs, Corners, Tally};
 use super::super::lanes::{V, sum};
-use super::super::law::{Called, Rubber, ShellLaw, WrinklingFilm};
+use super::super::law::{Called, Rubber, ShellLaw, UnitFilm};
 use super::room::Room;
-use super::{PassShared, Patch, Run, Sums};
+use super::{GroupRun, PassShared, Patch, Sums};
 use crate::vec3::Nodes;
 
 impl Patch {
@@ -80,11 +80,11 @@ impl pulp::WithSimd for Pass<'_, '_> {
         for index in 0..patch.runs.len() {
             let fabric = &*shared.fabrics[patch.runs[index].key.fabric];
             match fabric.kind() {
-                Kind::NeoHookean(_) => counted(simd, patch, room, shared, index, Rubber(1.0)),
-                Kind::Orthotropic(law) => counted(simd, patch, room, shared, index, law),
-                Kind::Mixed(law) => counted(simd, patch, room, shared, index, law),
-                Kind::WrinklingFilm(_) => counted(simd, patch, room, shared, index, WrinklingFilm),
-                Kind::Other => run::<S, _, true>(simd, patch, room, shared, index, Called(fabric)),
+                InlinedFabric::NeoHookean(_) => counted(simd, patch, room, shared, index, Rubber(1.0)),
+                InlinedFabric::Orthotropic(law) => counted(simd, patch, room, shared, index, law),
+                InlinedFabric::Mixed(law) => counted(simd, patch, room, shared, index, law),
+                InlinedFabric::WrinklingFilm(_) => counted(simd, patch, room, shared, index, UnitFilm),
+                InlinedFabric::Other => run::<S, _, true>(simd, patch, room, shared, index, Called(fabric)),
             }
         }
         if !patch.bend.is_empty() {
@@ -140,7 +140,7 @@ fn run<S: Simd, L: ShellLaw, const BOOKS: bool>(
     index: usize,
     law: L,
 ) {
-    let Run { key, regular, other, scratch } = patch.runs[index].clone();
+    let GroupRun { key, regular, other, scratch } = patch.runs[index].clone();
     let pressure = |chamber: Option<usize>| chamber.map_or(0.0, |c| shared.pressure_pa[c]);
     let mut tally = Tally::default();
     for (groups, in_rows) in [(regular, true), (other, false)] {

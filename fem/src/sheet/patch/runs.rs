@@ -71,17 +71,17 @@ pub(crate) fn next_in_row(a: &Item, b: &Item) -> bool {
 
 /// Nodes that follow each other in two numberings.
 #[derive(Debug, Clone)]
-pub(super) struct Stretch {
+pub(super) struct NodeStretch {
     /// In the numbering of the patch.
     pub local: Range<usize>,
     pub outer: Range<usize>,
 }
 
-pub(super) fn stretches(pairs: &[(usize, usize)]) -> Vec<Stretch> {
+pub(super) fn stretches(pairs: &[(usize, usize)]) -> Vec<NodeStretch> {
     let follow = |a: &(usize, usize), b: &(usize, usize)| b.0 == a.0 + 1 && b.1 == a.1 + 1;
     let stretch = |chunk: &[(usize, usize)]| {
         let (local, outer) = chunk[0];
-        Stretch { local: local..local + chunk.len(), outer: outer..outer + chunk.len() }
+        NodeStretch { local: local..local + chunk.len(), outer: outer..outer + chunk.len() }
     };
     pairs.chunk_by(follow).map(stretch).collect()
 }

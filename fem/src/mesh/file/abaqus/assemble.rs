@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::super::build::{Builder, MeshFile, Surface};
 use super::super::scan::Scan;
-use super::model::{Group, Instance, Member, Model, Orientation, Section, Sides};
+use super::model::{ElementSides, FileContent, FileSection, Instance, NamedSet, Orientation, SetMember};
 use crate::vec3::{V3, add, cross, dot, norm, scale, sub};
 
 /// A fault, and its line.
@@ -20,7 +20,7 @@ fn at(line: usize) -> impl Fn(String) -> Fault {
 type Sets = HashMap<(usize, bool, String), Vec<Item>>;
 
 #[derive(Default)]
-struct Assembly {
+struct MeshAssembly {
     builder: Builder,
     nodes: HashMap<Item, u32>,
     /// Nodes in the order of the mesh.
@@ -32,10 +32,10 @@ struct Assembly {
 }
 
 /// The mesh; a fault sets the line that is named.
-pub(super) fn mesh(model: &Model, scan: &mut Scan) -> Result<MeshFile, String> {
+pub(super) fn mesh(model: &FileContent, scan: &mut Scan) -> Result<MeshFile, String> {
     let bodies = model.instances.iter().map(|instance| &model.bodies[instance.body]);
     let several = bodies.filter(|body| !body.elements.is_empty()).count() > 1;
-    let mut assembly = Assembly { several, ..Assembly::default() };
+    let mut assembly = MeshAssembly { several, ..MeshAssembly::default() };
     match assembly.all(model) {
         Ok(()) => assembly.builder.finish(),
         Err((line, message)) => {
@@ -45,8 +45,8 @@ pub(super) fn mesh(model: &Model, scan: &mut Scan) -> Result<MeshFile, String> {
     }
 }
 
-impl Assembly {
-    fn all(&mut self, model: &Model) -> Result<(), Fault> {
+impl MeshAssembly {
+    fn all(&mut self, model: &FileContent) -> Result<(), Fault> {
         for (what, line) in model.ignored.iter() {
             self.builder.ignore(what, *line);
         }
@@ -77,7 +77,7 @@ impl Assembly {
         Ok(())
     }
 
-    fn numbers(&mut self, model: &Model) -> Result<(), Fault> {
+    fn numbers(&mut self, model: &FileContent) -> Result<(), Fault> {
         for (i, _, element) in model.each(|body| &body.elements) {
             let corner = |n: &u64| {
                 let found = self.nodes.get(&(i, *n)).copied();
@@ -91,15 +91,15 @@ impl Assembly {
         Ok(())
     }
 
-    fn members(&self, model: &Model, scope: usize, group: &Group) -> Result<Vec<Item>, String> {
+    fn members(&self, model: &FileContent, scope: usize, group: &NamedSet) -> Result<Vec<Item>, String> {
         let scope = group.instance.as_deref().map_or(Ok(scope), |name| instance(model, name))?;
         let (mut found, mut seen) = (Vec::new(), HashSet::new());
         for member in &group.members {
             let more = match member {
-                Member::Range(first, last, 1) if first == last => vec![(scope, *first)],
-                Member::Range(first, last, step) => self.range(scope, group.of_elements, [*first, *last, *step]),
-                Member::Named(name) => self.named(model, scope, group.of_elements, name)?,
-                Member::NodesOf(name) => {
+                SetMember::Range(first, last, 1) if first == last => vec![(scope, *first)],
+                SetMember::Range(first, last, step) => self.range(scope, group.of_elements, [*first, *last, *step]),
+                SetMember::Named(name) => self.named(model, scope, group.of_elements, name)?,
+                SetMember::NodesOf(name) => {
                     let elements = self.named(model, scope, true, name)?;
                     let corners =
                         elements.iter().filter_map(|item| self.elements.get(item)).flat_map(|(nodes, _)| nodes);
@@ -134,7 +134,7 @@ impl Assembly {
     }
 
     /// A set by its name, or by `INSTANCE.NAME`; or one item as `INSTANCE.NUMBER`.
-    fn named(&self, model: &Model, scope: usize, of_elements: bool, name: &str) -> Result<Vec<Item>, String> {
+    fn named(&self, model: &FileContent, scope: usize, of_elements: bool, name: &str) -> Result<Vec<Item>, String> {
         if let Ok(number) = name.parse() {
             return Ok(vec![(scope, number)]);
         }
@@ -151,9 +151,9 @@ impl Assembly {
     }
 
     /// Elements by section, else by the set of their keyword line, else by instance.
-    fn parts(&mut self, model: &Model) -> Result<(), Fault> {
+    fn parts(&mut self, model: &FileContent) -> Result<(), Fault> {
         let mut turned = Vec::new();
-        for (i, inst, Section { set, orientation, line }) in model.each(|body| &body.sections) {
+        for (i, inst, FileSection { set, orientation, line }) in model.each(|body| &body.sections) {
             let items = self.named(model, i, true, set).map_err(at(*line))?;
             for item in items {
                 let name = self.prefixed(model, item.0, set);
@@ -192,7 +192,7 @@ impl Assembly {
     }
 
     /// The name of something in an instance.
-    fn prefixed(&self, model: &Model, scope: usize, name: &str) -> String {
+    fn prefixed(&self, model: &FileContent, scope: usize, name: &str) -> String {
         match self.several && scope > 0 {
             true => format!("{}.{name}", model.instances[scope].name),
             false => name.to_string(),
@@ -200,7 +200,7 @@ impl Assembly {
     }
 
     /// Node sets, and element sets that are no part.
-    fn node_sets(&mut self, model: &Model) {
+    fn node_sets(&mut self, model: &FileContent) {
         for of_elements in [false, true] {
             let named = model.each(|body| &body.groups).map(|(i, _, group)| (i, group));
             for (i, group) in named.filter(|(_, g)| g.of_elements == of_elements && !g.internal) {
@@ -219,7 +219,7 @@ impl Assembly {
     }
 
     /// The parts that a surface covers, and on which side.
-    fn surface(&self, model: &Model, scope: usize, sides: &Sides) -> Result<Surface, String> {
+    fn surface(&self, model: &FileContent, scope: usize, sides: &ElementSides) -> Result<Surface, String> {
         let mut covered: HashMap<(String, bool), HashSet<Item>> = HashMap::new();
         let mut fault = None;
         for (set, side) in &sides.rows {
@@ -259,13 +259,13 @@ impl Assembly {
 }
 
 /// Place of an instance by its name.
-fn instance(model: &Model, name: &str) -> Result<usize, String> {
+fn instance(model: &FileContent, name: &str) -> Result<usize, String> {
     let found = model.instances.iter().skip(1).position(|instance| instance.name.eq_ignore_ascii_case(name));
     found.map(|at| at + 1).ok_or_else(|| format!("unknown instance `{name}`; define it above this line"))
 }
 
 /// An orientation by its name: of the part, else of the assembly.
-fn orientation_of<'a>(model: &'a Model, inst: &Instance, name: &str) -> Result<&'a Orientation, String> {
+fn orientation_of<'a>(model: &'a FileContent, inst: &Instance, name: &str) -> Result<&'a Orientation, String> {
     let bodies = [inst.body, 0].into_iter().flat_map(|body| &model.bodies[body].orientations);
     let mut named = bodies.filter(|it| it.name.eq_ignore_ascii_case(name));
     named.next().ok_or_else(|| format!("unknown *ORIENTATION `{name}`; define it, or leave ORIENTATION out"))

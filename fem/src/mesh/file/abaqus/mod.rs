@@ -12,9 +12,9 @@ use super::build::MeshFile;
 use super::scan::{Scan, number, numbers, whole};
 use crate::vec3::V3;
 use keywords::{IGNORED, Keyword, REFUSED, SHAPES};
-use model::{Body, Element, Group, Instance, Member, Model, Orientation, Section, Sides};
+use model::{Body, ElementSides, FileContent, FileElement, FileSection, Instance, NamedSet, Orientation, SetMember};
 
-enum Reading {
+enum OpenBlock {
     Nothing,
     Nodes { grouped: bool },
     Elements { corners: usize, set: Option<String>, row: Vec<u64> },
@@ -25,11 +25,11 @@ enum Reading {
     Orientation,
 }
 
-struct Reader {
-    model: Model,
+struct InputReader {
+    model: FileContent,
     /// The body that lines belong to.
     body: usize,
-    reading: Reading,
+    reading: OpenBlock,
     /// True inside `*STEP`, of which only pressures are read.
     in_step: bool,
 }
@@ -37,8 +37,8 @@ struct Reader {
 pub(super) fn read(scan: &mut Scan) -> Result<MeshFile, String> {
     // The whole text.
     let (bodies, instances) = (vec![Body::default()], vec![Instance::default()]);
-    let model = Model { bodies, instances, ..Model::default() };
-    let mut reader = Reader { model, body: 0, reading: Reading::Nothing, in_step: false };
+    let model = FileContent { bodies, instances, ..FileContent::default() };
+    let mut reader = InputReader { model, body: 0, reading: OpenBlock::Nothing, in_step: false };
     while let Some(line) = scan.line() {
         if line.starts_with("**") {
             continue;
@@ -57,23 +57,23 @@ pub(super) fn read(scan: &mut Scan) -> Result<MeshFile, String> {
     assemble::mesh(&reader.model, scan)
 }
 
-impl Reader {
+impl InputReader {
     fn body(&mut self) -> &mut Body {
         &mut self.model.bodies[self.body]
     }
 
     fn keyword(&mut self, keyword: &Keyword) -> Result<(), String> {
-        if let Reading::Elements { row, .. } = &self.reading
+        if let OpenBlock::Elements { row, .. } = &self.reading
             && !row.is_empty()
         {
             return Err(format!("the element above has {} numbers, which are too few", row.len()));
         }
-        self.reading = Reading::Nothing;
+        self.reading = OpenBlock::Nothing;
         let name = keyword.name.as_str();
         match name {
             "STEP" => self.in_step = true,
             "ENDSTEP" => self.in_step = false,
-            "DSLOAD" => self.reading = Reading::Pressed,
+            "DSLOAD" => self.reading = OpenBlock::Pressed,
             _ if self.in_step => {}
             "PART" => {
                 self.body = self.model.bodies.len();
@@ -88,7 +88,7 @@ impl Reader {
             "SURFACE" => self.surface(keyword)?,
             "SHELLSECTION" | "MEMBRANESECTION" | "SHELLGENERALSECTION" | "SURFACESECTION" => {
                 let (set, orientation) = (keyword.needed("ELSET")?, keyword.get("ORIENTATION"));
-                self.body().sections.push(Section { set, orientation, line: keyword.line });
+                self.body().sections.push(FileSection { set, orientation, line: keyword.line });
                 self.ignore(keyword);
             }
             "ORIENTATION" => self.orientation(keyword)?,
@@ -120,7 +120,7 @@ impl Reader {
         let other = other("SYSTEM", "RECTANGULAR").or_else(|| other("DEFINITION", "COORDINATES"));
         let (name, line) = (keyword.needed("NAME")?, keyword.line);
         self.body().orientations.push(Orientation { name, rows: Vec::new(), other, line });
-        self.reading = Reading::Orientation;
+        self.reading = OpenBlock::Orientation;
         Ok(())
     }
 
@@ -132,7 +132,7 @@ impl Reader {
         self.model.instances.push(Instance { name, body, ..Instance::default() });
         // What an instance adds to its part has the numbers of the part.
         self.body = body;
-        self.reading = Reading::Place;
+        self.reading = OpenBlock::Place;
         Ok(())
     }
 
@@ -142,7 +142,7 @@ impl Reader {
             return Err("nodes in cylindrical or spherical coordinates are not read; write x, y, z".into());
         }
         let set = keyword.get("NSET");
-        self.reading = Reading::Nodes { grouped: set.is_some() };
+        self.reading = OpenBlock::Nodes { grouped: set.is_some() };
         set.into_iter().for_each(|name| self.open_group(name, false, keyword));
         Ok(())
     }
@@ -159,13 +159,13 @@ impl Reader {
         };
         let set = keyword.get("ELSET");
         set.iter().for_each(|name| self.open_group(name.clone(), true, keyword));
-        self.reading = Reading::Elements { corners: *corners, set, row: Vec::new() };
+        self.reading = OpenBlock::Elements { corners: *corners, set, row: Vec::new() };
         Ok(())
     }
 
     fn open_group(&mut self, name: String, of_elements: bool, keyword: &Keyword) {
         let (internal, instance) = (keyword.has("INTERNAL"), keyword.get("INSTANCE"));
-        let group = Group { name, of_elements, internal, instance, members: Vec::new(), line: keyword.line };
+        let group = NamedSet { name, of_elements, internal, instance, members: Vec::new(), line: keyword.line };
         self.body().groups.push(group);
     }
 
@@ -173,13 +173,13 @@ impl Reader {
         let of_elements = keyword.name == "ELSET";
         self.open_group(keyword.needed(&keyword.name)?, of_elements, keyword);
         if let Some(elements) = keyword.get("ELSET").filter(|_| !of_elements) {
-            self.member(Member::NodesOf(elements));
+            self.member(SetMember::NodesOf(elements));
         }
-        self.reading = Reading::Group { generate: keyword.has("GENERATE") };
+        self.reading = OpenBlock::Group { generate: keyword.has("GENERATE") };
         Ok(())
     }
 
-    fn member(&mut self, member: Member) {
+    fn member(&mut self, member: SetMember) {
         if let Some(group) = self.body().groups.last_mut() {
             group.members.push(member);
         }
@@ -189,8 +189,8 @@ impl Reader {
         let (name, line) = (keyword.needed("NAME")?, keyword.line);
         match keyword.get("TYPE").map(|kind| kind.to_ascii_uppercase()).as_deref() {
             None | Some("ELEMENT") => {
-                self.body().surfaces.push(Sides { name, rows: Vec::new(), line });
-                self.reading = Reading::Surface;
+                self.body().surfaces.push(ElementSides { name, rows: Vec::new(), line });
+                self.reading = OpenBlock::Surface;
             }
             Some(_) => self.ignore(keyword),
         }
@@ -200,16 +200,16 @@ impl Reader {
     fn row(&mut self, line: &str, at: usize) -> Result<(), String> {
         let cells: Vec<&str> = line.trim_end_matches(',').split(',').map(str::trim).collect();
         match &mut self.reading {
-            Reading::Nothing => {}
-            Reading::Nodes { grouped } => {
+            OpenBlock::Nothing => {}
+            OpenBlock::Nodes { grouped } => {
                 let (number, grouped) = (whole(cells[0])?, *grouped);
                 let place = padded(&cells[1..])?;
                 self.body().nodes.push((number, place, at));
                 if grouped {
-                    self.member(Member::Range(number, number, 1));
+                    self.member(SetMember::Range(number, number, 1));
                 }
             }
-            Reading::Elements { corners, set, row } => {
+            OpenBlock::Elements { corners, set, row } => {
                 for cell in &cells {
                     row.push(whole(cell)?);
                 }
@@ -219,24 +219,24 @@ impl Reader {
                         return Err(format!("expected {} numbers, found {}", *corners + 1, numbers.len()));
                     }
                     if set.is_some() {
-                        self.member(Member::Range(numbers[0], numbers[0], 1));
+                        self.member(SetMember::Range(numbers[0], numbers[0], 1));
                     }
-                    let element = Element { number: numbers[0], nodes: numbers[1..].to_vec(), set, line: at };
+                    let element = FileElement { number: numbers[0], nodes: numbers[1..].to_vec(), set, line: at };
                     self.body().elements.push(element);
                 }
             }
-            Reading::Group { generate } => {
+            OpenBlock::Group { generate } => {
                 let generate = *generate;
                 self.members(&cells, generate)?;
             }
-            Reading::Surface => {
+            OpenBlock::Surface => {
                 let row = (cells[0].trim_matches('"').to_string(), cells.get(1).unwrap_or(&"").to_ascii_uppercase());
                 if let Some(surface) = self.body().surfaces.last_mut() {
                     surface.rows.push(row);
                 }
             }
-            Reading::Place => self.place(&cells)?,
-            Reading::Orientation => {
+            OpenBlock::Place => self.place(&cells)?,
+            OpenBlock::Orientation => {
                 if let Some(orientation) = self.body().orientations.last_mut().filter(|it| it.other.is_none()) {
                     match number(cells[0]) {
                         Err(_) if orientation.rows.is_empty() => orientation.other = Some("DISTRIBUTION".into()),
@@ -244,7 +244,7 @@ impl Reader {
                     }
                 }
             }
-            Reading::Pressed => self.model.pressed.push(cells[0].trim_matches('"').to_string()),
+            OpenBlock::Pressed => self.model.pressed.push(cells[0].trim_matches('"').to_string()),
         }
         Ok(())
     }
@@ -257,13 +257,13 @@ impl Reader {
                 [first, last, step] if step > 0 => (first, last, step),
                 _ => return Err("write first, last and step, a whole number from 1".into()),
             };
-            self.member(Member::Range(first, last, step));
+            self.member(SetMember::Range(first, last, step));
             return Ok(());
         }
         for cell in cells.iter().filter(|cell| !cell.is_empty()) {
             self.member(match cell.parse() {
-                Ok(number) => Member::Range(number, number, 1),
-                Err(_) => Member::Named(cell.trim_matches('"').to_string()),
+                Ok(number) => SetMember::Range(number, number, 1),
+                Err(_) => SetMember::Named(cell.trim_matches('"').to_string()),
             });
         }
         Ok(())

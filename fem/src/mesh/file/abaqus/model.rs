@@ -2,7 +2,7 @@
 
 /// Content of a file, in its order.
 #[derive(Default)]
-pub(super) struct Model {
+pub(super) struct FileContent {
     /// The first one is the text outside of parts.
     pub(super) bodies: Vec<Body>,
     /// The first one is the first body where it is.
@@ -12,7 +12,7 @@ pub(super) struct Model {
     pub(super) ignored: Vec<(String, usize)>,
 }
 
-impl Model {
+impl FileContent {
     /// All items of a kind, instance by instance, with the instance and its number.
     pub(super) fn each<T: 'static>(&self, of: fn(&Body) -> &Vec<T>) -> impl Iterator<Item = (usize, &Instance, &T)> {
         let all = self.instances.iter().enumerate();
@@ -25,14 +25,14 @@ impl Model {
 pub(super) struct Body {
     pub(super) name: String,
     pub(super) nodes: Vec<(u64, [f64; 3], usize)>,
-    pub(super) elements: Vec<Element>,
-    pub(super) groups: Vec<Group>,
-    pub(super) surfaces: Vec<Sides>,
-    pub(super) sections: Vec<Section>,
+    pub(super) elements: Vec<FileElement>,
+    pub(super) groups: Vec<NamedSet>,
+    pub(super) surfaces: Vec<ElementSides>,
+    pub(super) sections: Vec<FileSection>,
     pub(super) orientations: Vec<Orientation>,
 }
 
-pub(super) struct Section {
+pub(super) struct FileSection {
     pub(super) set: String,
     pub(super) orientation: Option<String>,
     pub(super) line: usize,
@@ -47,7 +47,7 @@ pub(super) struct Orientation {
     pub(super) line: usize,
 }
 
-pub(super) struct Element {
+pub(super) struct FileElement {
     pub(super) number: u64,
     pub(super) nodes: Vec<u64>,
     pub(super) set: Option<String>,
@@ -55,24 +55,24 @@ pub(super) struct Element {
 }
 
 /// A node set or an element set.
-pub(super) struct Group {
+pub(super) struct NamedSet {
     pub(super) name: String,
     pub(super) of_elements: bool,
     /// Made by a program for itself.
     pub(super) internal: bool,
     pub(super) instance: Option<String>,
-    pub(super) members: Vec<Member>,
+    pub(super) members: Vec<SetMember>,
     pub(super) line: usize,
 }
 
-pub(super) enum Member {
+pub(super) enum SetMember {
     Range(u64, u64, u64),
     Named(String),
     /// Nodes of the elements of a set.
     NodesOf(String),
 }
 
-pub(super) struct Sides {
+pub(super) struct ElementSides {
     pub(super) name: String,
     pub(super) rows: Vec<(String, String)>,
     pub(super) line: usize,
