@@ -6,10 +6,10 @@ use serde::Serialize;
 /// Rows, and columns that each have a head and what they say of a row.
 pub(crate) struct TextTable<R> {
     rows: Vec<R>,
-    columns: Vec<TextColumn>,
+    columns: Vec<PrintedColumn>,
 }
 
-struct TextColumn {
+struct PrintedColumn {
     head: String,
     flush_right: bool,
     cells: Vec<String>,
@@ -23,7 +23,7 @@ impl<R> TextTable<R> {
 
     fn column<S: Into<String>>(mut self, head: impl Into<String>, flush_right: bool, cell: impl Fn(&R) -> S) -> Self {
         let cells = self.rows.iter().map(|row| cell(row).into()).collect();
-        self.columns.push(TextColumn { head: head.into(), flush_right, cells });
+        self.columns.push(PrintedColumn { head: head.into(), flush_right, cells });
         self
     }
 
@@ -65,10 +65,10 @@ impl<R> TextTable<R> {
     /// As Markdown draws it, with columns of one width.
     pub(crate) fn text(self) -> String {
         let width =
-            |c: &TextColumn| c.cells.iter().chain([&c.head]).map(|cell| cell.chars().count()).max().unwrap_or(0);
+            |c: &PrintedColumn| c.cells.iter().chain([&c.head]).map(|cell| cell.chars().count()).max().unwrap_or(0);
         let widths: Vec<usize> = self.columns.iter().map(width).collect();
-        let line = |cell: &dyn Fn(&TextColumn) -> String| {
-            let padded = |(column, width): (&TextColumn, &usize)| match column.flush_right {
+        let line = |cell: &dyn Fn(&PrintedColumn) -> String| {
+            let padded = |(column, width): (&PrintedColumn, &usize)| match column.flush_right {
                 true => format!("| {:>width$} ", cell(column)),
                 false => format!("| {:<width$} ", cell(column)),
             };
@@ -82,11 +82,11 @@ impl<R> TextTable<R> {
     /// For the macro `shown` of a page: a column is of words if a cell begins with a letter.
     pub(crate) fn page(self, caption: &str) -> PageTable {
         let is_words =
-            |c: &TextColumn| !c.flush_right || c.cells.iter().any(|cell| cell.starts_with(char::is_alphabetic));
+            |c: &PrintedColumn| !c.flush_right || c.cells.iter().any(|cell| cell.starts_with(char::is_alphabetic));
         let heads =
             self.columns.iter().map(|c| [c.head.clone(), String::new(), if is_words(c) { "l" } else { "" }.into()]);
         let minus =
-            |c: &TextColumn, r: usize| if is_words(c) { c.cells[r].clone() } else { c.cells[r].replace('-', "−") };
+            |c: &PrintedColumn, r: usize| if is_words(c) { c.cells[r].clone() } else { c.cells[r].replace('-', "−") };
         let rows = (0..self.rows.len()).map(|r| self.columns.iter().map(|c| minus(c, r)).collect());
         PageTable { caption: caption.into(), heads: heads.collect(), rows: rows.collect() }
     }

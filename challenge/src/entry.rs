@@ -17,7 +17,7 @@ const RULES: &str = include_str!("rules.md");
 const REFERENCE: &str = include_str!("entry.py");
 
 /// Files of a case, or of the whole folder, with their names.
-type Files = Vec<(String, Vec<u8>)>;
+type CaseFiles = Vec<(String, Vec<u8>)>;
 
 /// Name of a case's folder.
 pub fn case_name(case: usize) -> String {
@@ -28,13 +28,13 @@ pub fn case_name(case: usize) -> String {
 ///
 /// # Errors
 /// A robot that does not balance.
-pub fn case(case: usize, seed: Option<u64>) -> Result<Files, CompareError> {
+pub fn case(case: usize, seed: Option<u64>) -> Result<CaseFiles, CompareError> {
     let seed = seed.map(|seed| seed.wrapping_mul(1_000_003).wrapping_add(case as u64));
     Ok(Riddle { seed, ..Riddle::default() }.make(&case_name(case))?.files)
 }
 
 /// Rules, the names that may be given, an entry to fill in, and an entry in Python.
-pub fn common_files(cases: usize) -> Files {
+pub fn common_files(cases: usize) -> CaseFiles {
     let mut names: Vec<_> = HIDDEN.iter().chain(ALSO).map(|effect| (effect.name, effect.sentence)).collect();
     names.sort_unstable();
     let names: String = names.into_iter().map(|(name, sentence)| format!("{name},\"{sentence}\"\n")).collect();

@@ -3,7 +3,7 @@
 //!
 //! What only steers a search (steps, rounds, starts) stays where it is used: it moves no verdict.
 
-use crate::directions::Row;
+use crate::directions::DirectionRow;
 use data::Hold;
 
 mod slips;
@@ -232,7 +232,7 @@ pub const HOLD_SCATTER_PRINTED: f64 = 2.0;
 pub const RUNS_DOWN: f64 = 4.0;
 /// Specification of the sensors, the least scatter ever assumed in a test: pressure 0.3 % of the reading, a gauge's gain too, alignment
 /// 0.1 mm in x and y, rotation 0.5 mrad.
-pub const SENSOR_SD: Row = [0.003, 1e-4, 1e-4, 5e-4, 1e-4, 5e-4, 5e-4];
+pub const SENSOR_SD: DirectionRow = [0.003, 1e-4, 1e-4, 5e-4, 1e-4, 5e-4, 5e-4];
 /// Standard deviation of a gauge's zero \[Pa\]. Assumed: 0.25 % of a span of 40 kPa.
 pub const ZERO_SD_PA: f64 = 100.0;
 /// Standard deviation of one reading \[Pa\], where there are no repeats to take it from. Assumed.

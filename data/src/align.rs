@@ -2,7 +2,7 @@
 
 use crate::dataset::{Dataset, Hold, Lost, Marker};
 use crate::error::{DataError, Result};
-use crate::header::Pressures;
+use crate::header::RowPressures;
 use crate::lost::fill;
 use crate::policy;
 use crate::streams::{HoldSegment, Recorder, SampleSums, Stream, are_near, merged};
@@ -161,7 +161,7 @@ impl<'a> HoldGrid<'a> {
         let shifts = self.time_shifts_s();
         let mut holds: Vec<Hold> = Vec::with_capacity(self.reference.len());
         for (index, first) in self.reference.iter().enumerate() {
-            let (mut sums_pa, mut t_s) = (Pressures::default(), vec![0.0; samples]);
+            let (mut sums_pa, mut t_s) = (RowPressures::default(), vec![0.0; samples]);
             for (run, segment) in self.of_hold(index) {
                 sums_pa.iter_mut().zip(segment.means_pa()).for_each(|(sum, mean)| *sum += mean);
                 let times = bins(&segment.samples, samples);

@@ -5,7 +5,7 @@
 //! pressures pascals, all times seconds; units are converted where the file is read and nowhere else.
 
 use crate::error::{DataError, Result};
-use crate::header::Pressures;
+use crate::header::RowPressures;
 
 /// Whether a hold was reached by raising the actuator pressure, by lowering it, or without changing it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -54,7 +54,7 @@ pub struct Hold {
 
 impl Hold {
     /// Pressures of the body, of channel 0 and of the channels from 1 on, 0 of channels that the table has not.
-    pub(crate) fn pressures_pa(&self) -> Pressures {
+    pub(crate) fn pressures_pa(&self) -> RowPressures {
         let more = |channel: usize| self.more_act_pa.get(channel).copied().unwrap_or(0.0);
         [self.p_body_pa, self.p_act_pa, more(0), more(1), more(2)]
     }

@@ -24,7 +24,7 @@ pub(crate) const P_MORE: [usize; 3] = [12, 13, 14];
 pub(crate) const PRESSURES: [usize; 2 + P_MORE.len()] = [P_BODY, P_ACT, P_MORE[0], P_MORE[1], P_MORE[2]];
 
 /// Pressures in the order of [`PRESSURES`] \[Pa\].
-pub(crate) type Pressures = [f64; PRESSURES.len()];
+pub(crate) type RowPressures = [f64; PRESSURES.len()];
 
 /// All quantities; those from `s_mm` on are optional.
 pub(crate) const QUANTITIES: [Field; 15] = [

@@ -12,7 +12,7 @@ use crate::sets::{names, set_about, set_file, shown};
 use crate::table::TableReader;
 
 /// A dataset, and its description where it has one.
-type Loaded = (Dataset, Option<About>);
+type LoadedSet = (Dataset, Option<About>);
 
 /// Loads the dataset that `spec` names: an embedded set, a folder with `markers.csv` (or `.parquet`) and `about.toml`,
 /// a `.csv` or a `.parquet` file (an `about.toml` next to it is used). `#kind` at the end chooses one actuator.
@@ -42,7 +42,7 @@ fn split_kind(spec: &str) -> (&str, Option<&str>) {
     }
 }
 
-fn load_set(name: &str, actuator: Option<&str>, progress: Progress) -> Result<Loaded> {
+fn load_set(name: &str, actuator: Option<&str>, progress: Progress) -> Result<LoadedSet> {
     let about = set_about(name)?;
     let file = shown(name, "markers.csv");
     let text = set_file(name, "markers.csv").map_err(|_| {
@@ -56,7 +56,7 @@ fn load_set(name: &str, actuator: Option<&str>, progress: Progress) -> Result<Lo
     Ok((dataset, Some(about)))
 }
 
-fn load_folder(folder: &Path, actuator: Option<&str>, progress: Progress) -> Result<Loaded> {
+fn load_folder(folder: &Path, actuator: Option<&str>, progress: Progress) -> Result<LoadedSet> {
     let candidates = ["markers.csv", "markers.parquet"].map(|file| folder.join(file));
     let Some(file) = candidates.iter().find(|file| file.is_file()) else {
         let (shown, message) = (folder.display().to_string(), "the folder has no markers.csv");
@@ -71,7 +71,7 @@ fn load_folder(folder: &Path, actuator: Option<&str>, progress: Progress) -> Res
     Ok((dataset, about))
 }
 
-fn load_file(file: &Path, actuator: Option<&str>, progress: Progress) -> Result<Loaded> {
+fn load_file(file: &Path, actuator: Option<&str>, progress: Progress) -> Result<LoadedSet> {
     let beside = file.with_file_name("about.toml");
     // A link that leads nowhere was meant to be read.
     let is_there = beside.symlink_metadata().is_ok();

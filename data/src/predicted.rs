@@ -15,7 +15,7 @@ use std::collections::HashMap;
 use crate::columns::{Field, Head, TableRow, TableSheet, field, plain};
 use crate::dataset::{Dataset, Hold};
 use crate::error::{DataError, Result};
-use crate::header::Pressures;
+use crate::header::RowPressures;
 use crate::lines::LineReader;
 use crate::policy;
 use crate::streams::are_near;
@@ -236,7 +236,7 @@ impl<'d> Collected<'d> {
 }
 
 /// The pressures of a row; those that it has not, or the data have not, are the pressures of the hold.
-fn filled(hold: &Hold, given: [Option<f64>; PRESSURES.len()]) -> Pressures {
+fn filled(hold: &Hold, given: [Option<f64>; PRESSURES.len()]) -> RowPressures {
     let own = hold.pressures_pa();
     let known = 2 + hold.more_act_pa.len();
     std::array::from_fn(|k| given[k].filter(|_| k < known).unwrap_or(own[k]))

@@ -5,7 +5,7 @@ use crate::columns::TableSheet;
 use crate::dataset::Phase;
 use crate::error::{DataError, Result};
 use crate::header::{
-    ACTUATOR, GAUGE, MARKER, P_BODY, PHASE, PRESSURES, Pressures, QUANTITIES, RUN, STATION, TIME, X, Y, Z,
+    ACTUATOR, GAUGE, MARKER, P_BODY, PHASE, PRESSURES, QUANTITIES, RUN, RowPressures, STATION, TIME, X, Y, Z,
 };
 use crate::lines::TextLine;
 use crate::policy;
@@ -20,7 +20,7 @@ pub(crate) struct Observation<'a> {
     pub phase: Phase,
     pub t_s: f64,
     /// 0 of a channel without a column.
-    pub pressures_pa: Pressures,
+    pub pressures_pa: RowPressures,
     pub x_m: f64,
     pub y_m: f64,
     pub z_m: Option<f64>,
@@ -245,8 +245,8 @@ impl<'a> Cells<'a> {
         })
     }
 
-    fn pressures(&self) -> Result<Pressures> {
-        let mut pressures_pa = Pressures::default();
+    fn pressures(&self) -> Result<RowPressures> {
+        let mut pressures_pa = RowPressures::default();
         for (k, quantity) in PRESSURES.into_iter().enumerate().filter(|(_, q)| self.has(*q)) {
             pressures_pa[k] = self.pressure(quantity)?;
         }

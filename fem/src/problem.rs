@@ -12,7 +12,7 @@ use crate::vec3::V3;
 pub use gas::Gas;
 use models::Fabric;
 pub use models::fabrics::Ply;
-pub use print::{GRAVITY, Loads, force_on, motion_of, pressure_of};
+pub use print::{GRAVITY, PrintedLoads, force_on, motion_of, pressure_of};
 use std::sync::Arc;
 
 /// Mesh, materials, loads, supports and settings of one run.

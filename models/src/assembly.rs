@@ -22,7 +22,7 @@ pub struct Moment {
 /// Set pressure \[Pa\] → pressure in the actuator \[Pa\].
 pub type SupplyLaw = Box<dyn Fn(f64, &Moment) -> f64 + Send + Sync>;
 /// Set body pressure and largest set actuator pressure \[Pa\] → body pressure \[Pa\].
-pub type BodyLaw = Box<dyn Fn(f64, f64, &Moment) -> f64 + Send + Sync>;
+pub type BodySupplyLaw = Box<dyn Fn(f64, f64, &Moment) -> f64 + Send + Sync>;
 /// Changes what the camera sees of one marker.
 pub type CameraLaw = Box<dyn Fn(&mut Sighting) + Send + Sync>;
 
@@ -88,7 +88,7 @@ pub struct Assembly {
     /// Laws from set to actuator pressure, applied one after the other at every segment.
     pub supply: Vec<SupplyLaw>,
     /// Laws of the body pressure in order.
-    pub body: Vec<BodyLaw>,
+    pub body: Vec<BodySupplyLaw>,
     /// Laws from true to seen marker positions, applied one after the other to every marker.
     pub camera: Vec<CameraLaw>,
     /// Whether a law depends on time.

@@ -22,7 +22,7 @@ pub(crate) fn narrowing_m(length_m: f64, fold_m: f64, theta: f64) -> f64 {
 }
 
 /// ∫(4au − πa²) dx, ∫b dx and ∫b² dx over a pouch, b of [`narrowed`].
-pub(crate) type Sums = [Sloped; 3];
+pub(crate) type PouchSums = [Sloped; 3];
 
 /// A number and its slope over θ.
 pub(crate) type Sloped = [f64; 2];
@@ -95,7 +95,7 @@ impl GussetLens {
 
     /// The integrals in parts: where the fold is held, halved, and where it is open, ever finer towards the place where it begins to
     /// be held: there the half height of a shallow fold is of the size of its depth.
-    pub(crate) fn sums(&self, fold_m: f64) -> Sums {
+    pub(crate) fn sums(&self, fold_m: f64) -> PouchSums {
         let open = self.open_to(fold_m);
         let cuts = OPEN_CUTS.map(|share| share * open).into_iter().chain([0.5 * (1.0 + open), 1.0]);
         let (mut sums, mut from) = ([[0.0; 2]; 3], 0.0);
@@ -128,7 +128,7 @@ const GAUSS: [[f64; 2]; 4] = [
 
 impl GussetSide {
     /// 4au − πa², b and b².
-    fn gains(&self) -> Sums {
+    fn gains(&self) -> PouchSums {
         let [[a, d_a], [u, d_u]] = self.of_theta;
         let (sin, cos) = sin_cos(u / a);
         let d_b = d_a - 2.0 / NARROWED * (d_u * (1.0 - sin) - d_a * (1.0 - cos - sin * u / a));

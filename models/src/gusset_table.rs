@@ -3,7 +3,7 @@
 //! The fold opens to its bottom at θ₀, in the middle of the pouch first, and beyond it the integrals go on with the power 3/2 of θ − θ₀.
 //! So a piece ends at θ₀, and beyond it the cubics are over √(θ − θ₀).
 
-use crate::gusset::{GussetLens, Sloped, Sums};
+use crate::gusset::{GussetLens, PouchSums, Sloped};
 use std::f64::consts::PI;
 
 /// Number of cubics in each of the two parts, below and beyond θ₀.
@@ -26,9 +26,9 @@ pub(crate) struct GussetTable {
 
 impl CubicTable {
     /// From integrals and their slopes over a variable up to `end`.
-    fn new(end: f64, of: impl Fn(f64) -> Sums) -> CubicTable {
+    fn new(end: f64, of: impl Fn(f64) -> PouchSums) -> CubicTable {
         let step = end / STEPS as f64;
-        let nodes: Vec<Sums> = (0..=STEPS).map(|i| of(step * i as f64)).collect();
+        let nodes: Vec<PouchSums> = (0..=STEPS).map(|i| of(step * i as f64)).collect();
         let cubic = |[v, d]: Sloped, [w, e]: Sloped| {
             let (d, e) = (step * d, step * e);
             [v, d, 3.0 * (w - v) - 2.0 * d - e, 2.0 * (v - w) + d + e]
@@ -38,7 +38,7 @@ impl CubicTable {
     }
 
     #[inline]
-    fn at(&self, x: f64) -> Sums {
+    fn at(&self, x: f64) -> PouchSums {
         let place = x / self.step;
         let index = (place as usize).min(STEPS - 1);
         let t = place - index as f64;
@@ -59,7 +59,7 @@ impl GussetTable {
         GussetTable { opens, held, open }
     }
 
-    pub(crate) fn sums(&self, theta: f64) -> Sums {
+    pub(crate) fn sums(&self, theta: f64) -> PouchSums {
         if theta <= self.opens {
             return self.held.at(theta);
         }

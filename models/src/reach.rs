@@ -12,15 +12,15 @@ const NARROWINGS: usize = 60;
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// A pressure and the response there; NaN without equilibrium.
-type Point = (f64, f64);
+type PressureResponse = (f64, f64);
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Reach {
     At(f64),
     /// Passed over between two pressures next to each other.
     Gap {
-        low: Point,
-        high: Point,
+        low: PressureResponse,
+        high: PressureResponse,
         between: &'static str,
     },
     /// All that can be had, ends polished.
@@ -63,14 +63,14 @@ pub(crate) fn reach(f: &mut dyn FnMut(f64) -> f64, wanted: f64, most: f64, sampl
 struct SearchedRange {
     wanted: f64,
     gap: Option<Reach>,
-    last: Option<Point>,
+    last: Option<PressureResponse>,
     least: f64,
     most: f64,
 }
 
 impl SearchedRange {
     /// The next point; a pressure if the target is met at it or on the way to it.
-    fn visit(&mut self, f: &mut dyn FnMut(f64) -> f64, point: Point) -> Option<f64> {
+    fn visit(&mut self, f: &mut dyn FnMut(f64) -> f64, point: PressureResponse) -> Option<f64> {
         let (p, value) = point;
         if value.is_nan() {
             return None;
@@ -94,7 +94,7 @@ impl SearchedRange {
 }
 
 /// Halves the interval between a point below the target and one above it, until it is met or the two are neighbours.
-fn cross(f: &mut dyn FnMut(f64) -> f64, mut low: Point, mut high: Point, wanted: f64) -> Reach {
+fn cross(f: &mut dyn FnMut(f64) -> f64, mut low: PressureResponse, mut high: PressureResponse, wanted: f64) -> Reach {
     for _ in 0..HALVINGS {
         let p = 0.5 * (low.0 + high.0);
         if p == low.0 || p == high.0 {
@@ -103,7 +103,7 @@ fn cross(f: &mut dyn FnMut(f64) -> f64, mut low: Point, mut high: Point, wanted:
         let value = f(p);
         if value.is_nan() {
             let (near, far) = (edge(f, low, (p, value)), edge(f, high, (p, value)));
-            let passed = |a: Point, b: Point| (a.1 < wanted) != (b.1 < wanted);
+            let passed = |a: PressureResponse, b: PressureResponse| (a.1 < wanted) != (b.1 < wanted);
             match (passed(low, near), passed(far, high)) {
                 (true, _) => high = near,
                 (_, true) => low = far,
@@ -121,7 +121,7 @@ fn cross(f: &mut dyn FnMut(f64) -> f64, mut low: Point, mut high: Point, wanted:
 }
 
 /// The last point with an equilibrium on the way from one that has one to one that has none.
-fn edge(f: &mut dyn FnMut(f64) -> f64, mut inside: Point, outside: Point) -> Point {
+fn edge(f: &mut dyn FnMut(f64) -> f64, mut inside: PressureResponse, outside: PressureResponse) -> PressureResponse {
     let mut beyond = outside.0;
     for _ in 0..HALVINGS {
         let p = 0.5 * (inside.0 + beyond);
@@ -137,7 +137,12 @@ fn edge(f: &mut dyn FnMut(f64) -> f64, mut inside: Point, outside: Point) -> Poi
 }
 
 /// The highest or lowest point near a sample that is higher or lower than both of its neighbours.
-fn summit(f: &mut dyn FnMut(f64) -> f64, before: Point, at: Point, next: Point) -> Option<Point> {
+fn summit(
+    f: &mut dyn FnMut(f64) -> f64,
+    before: PressureResponse,
+    at: PressureResponse,
+    next: PressureResponse,
+) -> Option<PressureResponse> {
     let sign = if at.1 >= before.1 && at.1 >= next.1 {
         1.0
     } else if at.1 <= before.1 && at.1 <= next.1 {

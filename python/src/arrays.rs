@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 /// An array of numbers, or what numpy makes one of: lists, whole numbers.
-pub(crate) type Numbers<'py> = PyArrayLikeDyn<'py, f64, AllowTypeChange>;
+pub(crate) type NumberArray<'py> = PyArrayLikeDyn<'py, f64, AllowTypeChange>;
 
 /// Points in metres as rows of millimetres, without a copy.
 pub(crate) fn rows_mm<const AXES: usize>(py: Python<'_>, points_m: Vec<[f64; AXES]>) -> Bound<'_, PyArray2<f64>> {
@@ -32,7 +32,7 @@ pub(crate) fn vector(py: Python<'_>, values: Vec<f64>) -> Bound<'_, PyArray1<f64
 }
 
 /// The numbers of an array of any shape, and its shape.
-pub(crate) fn numbers(array: &Numbers<'_>) -> (Vec<f64>, Vec<usize>) {
+pub(crate) fn numbers(array: &NumberArray<'_>) -> (Vec<f64>, Vec<usize>) {
     let view = array.as_array();
     (view.iter().copied().collect(), view.shape().to_vec())
 }

@@ -1,7 +1,7 @@
 //! Another simulator's predictions as the base of a diagnosis, and their correction.
 
 use crate::answers::{Answer, all_evidence};
-use crate::arrays::{Numbers, numbers, table};
+use crate::arrays::{NumberArray, numbers, table};
 use crate::errors::{raised, refused};
 use crate::inputs::{Data, Made};
 use crate::scenario::Scenario;
@@ -62,8 +62,8 @@ impl Correction {
     fn at<'py>(
         &self,
         py: Python<'py>,
-        act_kpa: Numbers<'py>,
-        body_kpa: Numbers<'py>,
+        act_kpa: NumberArray<'py>,
+        body_kpa: NumberArray<'py>,
     ) -> PyResult<Bound<'py, PyArray3<f64>>> {
         let ((act, _), (body, _)) = (numbers(&act_kpa), numbers(&body_kpa));
         let pressures: Vec<[f64; 2]> = body.iter().zip(&act).map(|(body, act)| [1e3 * body, 1e3 * act]).collect();

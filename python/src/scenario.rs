@@ -1,6 +1,6 @@
 //! A robot's scenario, ready to be asked.
 
-use crate::arrays::{Numbers, matrix, numbers, vector};
+use crate::arrays::{NumberArray, matrix, numbers, vector};
 use crate::errors::{raised, refused};
 use crate::inputs::{Change, Pressures, hash_of, places};
 use crate::source::ScenarioSource;
@@ -59,7 +59,7 @@ impl Scenario {
     }
 
     /// One state per row of `pressure_kpa`, at the body pressure given for all or for each.
-    fn all_loads(&self, pressure_kpa: &Numbers<'_>, body_kpa: Option<&Numbers<'_>>) -> PyResult<Vec<Loads>> {
+    fn all_loads(&self, pressure_kpa: &NumberArray<'_>, body_kpa: Option<&NumberArray<'_>>) -> PyResult<Vec<Loads>> {
         let (kpa, shape) = numbers(pressure_kpa);
         let columns = match shape[..] {
             [_] => 1,
@@ -92,7 +92,7 @@ impl Scenario {
     }
 }
 
-fn channels(pressure_kpa: &Numbers<'_>) -> usize {
+fn channels(pressure_kpa: &NumberArray<'_>) -> usize {
     pressure_kpa.as_array().shape().get(1).copied().unwrap_or(1)
 }
 
@@ -230,8 +230,8 @@ impl Scenario {
     fn batch(
         &self,
         py: Python<'_>,
-        pressure_kpa: Numbers<'_>,
-        body_pressure_kpa: Option<Numbers<'_>>,
+        pressure_kpa: NumberArray<'_>,
+        body_pressure_kpa: Option<NumberArray<'_>>,
         threads: usize,
     ) -> PyResult<Py<PyAny>> {
         let loads = self.all_loads(&pressure_kpa, body_pressure_kpa.as_ref())?;
@@ -247,9 +247,9 @@ impl Scenario {
     fn follow(
         &self,
         py: Python<'_>,
-        t_s: Numbers<'_>,
-        pressure_kpa: Numbers<'_>,
-        body_pressure_kpa: Option<Numbers<'_>>,
+        t_s: NumberArray<'_>,
+        pressure_kpa: NumberArray<'_>,
+        body_pressure_kpa: Option<NumberArray<'_>>,
     ) -> PyResult<Py<PyAny>> {
         let loads = self.all_loads(&pressure_kpa, body_pressure_kpa.as_ref())?;
         let (times, _) = numbers(&t_s);

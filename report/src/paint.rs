@@ -1,6 +1,6 @@
 //! Puts a scene on the SVG and the bitmap backend of plotters, by one generic routine.
 
-use crate::scene::{Anchor, Point, Scene, SceneMark};
+use crate::scene::{Anchor, Scene, SceneMark, ScenePoint};
 use crate::{Drawn, ReportError, text};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -130,7 +130,7 @@ fn marks<DB: DrawingBackend>(
 fn stroke<DB: DrawingBackend>(
     root: &DrawingArea<DB, plotters::coord::Shift>,
     surface: &DrawingSurface,
-    points: &[Point],
+    points: &[ScenePoint],
     [r, g, b]: [u8; 3],
     width: f64,
 ) -> Result<(), ReportError> {
@@ -178,12 +178,12 @@ fn letters<DB: DrawingBackend>(
 }
 
 impl DrawingSurface {
-    fn whole(&self, [x, y]: Point) -> (i32, i32) {
+    fn whole(&self, [x, y]: ScenePoint) -> (i32, i32) {
         ((x * self.scale).round() as i32, (y * self.scale).round() as i32)
     }
 
     /// Whole-number points without repeats, which the bitmap backend would divide by.
-    fn distinct(&self, points: &[Point]) -> Vec<(i32, i32)> {
+    fn distinct(&self, points: &[ScenePoint]) -> Vec<(i32, i32)> {
         let mut path: Vec<_> = points.iter().map(|point| self.whole(*point)).collect();
         path.dedup();
         path

@@ -1,6 +1,6 @@
 //! Where to put labels so that they cover neither data nor each other.
 
-use crate::scene::Point;
+use crate::scene::ScenePoint;
 
 /// A rectangle: left, top, right, bottom [design px].
 pub(crate) type Rect = [f64; 4];
@@ -24,7 +24,7 @@ pub(crate) fn stack(targets: &[f64], gap: f64, [top, bottom]: [f64; 2]) -> Vec<f
 }
 
 /// For each point, the centre of a label of the given size near it, clear of `obstacles` and earlier labels.
-pub(crate) fn around(points: &[Point], sizes: &[[f64; 2]], bounds: Rect, obstacles: &[Rect]) -> Vec<Point> {
+pub(crate) fn around(points: &[ScenePoint], sizes: &[[f64; 2]], bounds: Rect, obstacles: &[Rect]) -> Vec<ScenePoint> {
     let mut taken = obstacles.to_vec();
     let mut out = Vec::with_capacity(points.len());
     for (point, size) in points.iter().zip(sizes) {
@@ -45,7 +45,7 @@ pub(crate) fn around(points: &[Point], sizes: &[[f64; 2]], bounds: Rect, obstacl
 }
 
 /// Centres around a point with a penalty that grows with distance; right and left come first.
-fn candidates([x, y]: Point, [width, height]: [f64; 2]) -> Vec<(Point, f64)> {
+fn candidates([x, y]: ScenePoint, [width, height]: [f64; 2]) -> Vec<(ScenePoint, f64)> {
     let mut out = Vec::new();
     for ring in 0..5 {
         let reach = 10.0 + 14.0 * f64::from(ring);
@@ -59,7 +59,7 @@ fn candidates([x, y]: Point, [width, height]: [f64; 2]) -> Vec<(Point, f64)> {
     out
 }
 
-fn rect_of([x, y]: Point, [width, height]: [f64; 2]) -> Rect {
+fn rect_of([x, y]: ScenePoint, [width, height]: [f64; 2]) -> Rect {
     [x - 0.5 * width, y - 0.5 * height, x + 0.5 * width, y + 0.5 * height]
 }
 

@@ -4,7 +4,7 @@ use crate::axis::ChartAxis;
 use crate::chart::{Chart, Mark, Space, finite};
 use crate::palette::Ink;
 use crate::paper::{RIM, TEXT, on_paper, x_axis};
-use crate::scene::{Anchor, Point, Scene, Symbol};
+use crate::scene::{Anchor, Scene, ScenePoint, Symbol};
 use crate::{WIDTH, chart, place, text};
 
 /// Widest label of a tip, and of a point [design px].
@@ -67,11 +67,11 @@ fn frame(scene: &mut Scene, chart: &Chart, [mut x, mut y]: [ChartAxis; 2], (top,
 }
 
 impl Plane {
-    fn at(&self, point: &[f64; 2]) -> Option<Point> {
+    fn at(&self, point: &[f64; 2]) -> Option<ScenePoint> {
         Some([self.x.at(point[0]), self.y.at(point[1])]).filter(finite)
     }
 
-    fn path(&self, points: &[[f64; 2]]) -> Vec<Point> {
+    fn path(&self, points: &[[f64; 2]]) -> Vec<ScenePoint> {
         points.iter().filter_map(|point| self.at(point)).collect()
     }
 
@@ -103,7 +103,7 @@ impl Plane {
 
     /// Labels right of the plot, joined to their tips by thin lines.
     fn tips(&self, scene: &mut Scene, marks: &[Mark]) {
-        let tips: Vec<(Point, String, Ink)> = marks
+        let tips: Vec<(ScenePoint, String, Ink)> = marks
             .iter()
             .filter_map(|mark| match mark {
                 Mark::Tip(at, label, ink) => Some((self.at(at)?, text::fit(label, TEXT, TIP), *ink)),
@@ -124,7 +124,7 @@ impl Plane {
 
 /// Labels of points, clear of the points and of each other; one that is far from its point is joined to it.
 fn labels(scene: &mut Scene, plane: &Plane, marks: &[Mark]) {
-    let points: Vec<(Point, String)> = marks
+    let points: Vec<(ScenePoint, String)> = marks
         .iter()
         .filter_map(|mark| match mark {
             Mark::Point(chart::Point { at, label, .. }) => Some((plane.at(at)?, text::fit(label, TEXT, LABEL))),
@@ -135,8 +135,8 @@ fn labels(scene: &mut Scene, plane: &Plane, marks: &[Mark]) {
         return;
     }
     let dots: Vec<place::Rect> = points.iter().map(|(p, _)| [p[0] - 8.0, p[1] - 8.0, p[0] + 8.0, p[1] + 8.0]).collect();
-    let named: Vec<&(Point, String)> = points.iter().filter(|(_, label)| !label.is_empty()).collect();
-    let at: Vec<Point> = named.iter().map(|(at, _)| *at).collect();
+    let named: Vec<&(ScenePoint, String)> = points.iter().filter(|(_, label)| !label.is_empty()).collect();
+    let at: Vec<ScenePoint> = named.iter().map(|(at, _)| *at).collect();
     let sizes: Vec<[f64; 2]> = named.iter().map(|(_, label)| [text::width(label, TEXT), 1.25 * TEXT]).collect();
     let bounds = [plane.x.pixels[0], plane.y.pixels[1] - 8.0, WIDTH - 4.0, plane.y.pixels[0] - 2.0];
     for (i, centre) in place::around(&at, &sizes, bounds, &dots).into_iter().enumerate() {

@@ -4,7 +4,7 @@ use crate::palette::Ink;
 use crate::text;
 
 /// A point in design pixels, x to the right, y downwards.
-pub(crate) type Point = [f64; 2];
+pub(crate) type ScenePoint = [f64; 2];
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Anchor {
@@ -36,10 +36,10 @@ impl Symbol {
 
 /// One thing to draw; lengths in design pixels.
 pub(crate) enum SceneMark {
-    Line { points: Vec<Point>, ink: Ink, width: f64 },
-    Fill { points: Vec<Point>, ink: Ink, alpha: f64 },
-    Disc { centre: Point, radius: f64, ink: Ink },
-    Text { at: Point, text: String, size: f64, ink: Ink, anchor: Anchor },
+    Line { points: Vec<ScenePoint>, ink: Ink, width: f64 },
+    Fill { points: Vec<ScenePoint>, ink: Ink, alpha: f64 },
+    Disc { centre: ScenePoint, radius: f64, ink: Ink },
+    Text { at: ScenePoint, text: String, size: f64, ink: Ink, anchor: Anchor },
 }
 
 pub(crate) struct Scene {
@@ -54,12 +54,12 @@ impl Scene {
         Scene { width: crate::WIDTH, height: 0.0, marks: Vec::new() }
     }
 
-    pub(crate) fn line(&mut self, points: &[Point], ink: Ink, width: f64) {
+    pub(crate) fn line(&mut self, points: &[ScenePoint], ink: Ink, width: f64) {
         self.marks.push(SceneMark::Line { points: points.to_vec(), ink, width });
     }
 
     /// A dashed line with dashes of `on` and gaps of `off`.
-    pub(crate) fn dashed(&mut self, points: &[Point], ink: Ink, width: f64, [on, off]: [f64; 2]) {
+    pub(crate) fn dashed(&mut self, points: &[ScenePoint], ink: Ink, width: f64, [on, off]: [f64; 2]) {
         let (mut drawing, mut left, mut dash) = (true, on, points.first().copied().into_iter().collect::<Vec<_>>());
         for pair in points.windows(2) {
             let (mut a, b) = (pair[0], pair[1]);
@@ -84,23 +84,23 @@ impl Scene {
         }
     }
 
-    pub(crate) fn rect(&mut self, [x0, y0]: Point, [x1, y1]: Point, ink: Ink, alpha: f64) {
+    pub(crate) fn rect(&mut self, [x0, y0]: ScenePoint, [x1, y1]: ScenePoint, ink: Ink, alpha: f64) {
         self.fill(&[[x0, y0], [x1, y0], [x1, y1], [x0, y1]], ink, alpha);
     }
 
-    pub(crate) fn fill(&mut self, points: &[Point], ink: Ink, alpha: f64) {
+    pub(crate) fn fill(&mut self, points: &[ScenePoint], ink: Ink, alpha: f64) {
         self.marks.push(SceneMark::Fill { points: points.to_vec(), ink, alpha });
     }
 
     /// A marker of half-width `radius`; an open one has a coloured rim on paper.
-    pub(crate) fn symbol(&mut self, symbol: Symbol, centre: Point, radius: f64, ink: Ink, open: bool) {
+    pub(crate) fn symbol(&mut self, symbol: Symbol, centre: ScenePoint, radius: f64, ink: Ink, open: bool) {
         self.solid(symbol, centre, radius, ink);
         if open {
             self.solid(symbol, centre, radius - 1.6, Ink::Paper);
         }
     }
 
-    fn solid(&mut self, symbol: Symbol, centre: Point, radius: f64, ink: Ink) {
+    fn solid(&mut self, symbol: Symbol, centre: ScenePoint, radius: f64, ink: Ink) {
         let corner = |x: f64, y: f64| [centre[0] + x * radius, centre[1] + y * radius];
         match symbol {
             Symbol::Circle => self.marks.push(SceneMark::Disc { centre, radius, ink }),
@@ -113,7 +113,7 @@ impl Scene {
     }
 
     /// A horizontal error bar with a rim of paper, to be seen on a filled bar in both themes.
-    pub(crate) fn error_bar_on_fill(&mut self, [x, y]: Point, half: f64) {
+    pub(crate) fn error_bar_on_fill(&mut self, [x, y]: ScenePoint, half: f64) {
         self.line(&[[x - half, y], [x + half, y]], Ink::Paper, 2.9);
         for end in [x - half, x + half] {
             self.line(&[[end, y - 3.3], [end, y + 3.3]], Ink::Paper, 2.9);
@@ -122,7 +122,7 @@ impl Scene {
     }
 
     /// An error bar along y (`vertical`) or x, with caps.
-    pub(crate) fn error_bar(&mut self, [x, y]: Point, half: f64, vertical: bool, ink: Ink) {
+    pub(crate) fn error_bar(&mut self, [x, y]: ScenePoint, half: f64, vertical: bool, ink: Ink) {
         let turn = |along: f64, across: f64| if vertical { [x + across, y + along] } else { [x + along, y + across] };
         self.line(&[turn(-half, 0.0), turn(half, 0.0)], ink, 1.3);
         for end in [-half, half] {
@@ -130,18 +130,18 @@ impl Scene {
         }
     }
 
-    pub(crate) fn text(&mut self, at: Point, text: &str, size: f64, ink: Ink, anchor: Anchor) {
+    pub(crate) fn text(&mut self, at: ScenePoint, text: &str, size: f64, ink: Ink, anchor: Anchor) {
         let text = text::fit(text, size, self.width);
         self.marks.push(SceneMark::Text { at, text, size, ink, anchor });
     }
 
     /// A text whose capitals are centred on `at[1]`.
-    pub(crate) fn text_mid(&mut self, at: Point, text: &str, size: f64, ink: Ink, anchor: Anchor) {
+    pub(crate) fn text_mid(&mut self, at: ScenePoint, text: &str, size: f64, ink: Ink, anchor: Anchor) {
         self.text([at[0], at[1] + 0.36 * size], text, size, ink, anchor);
     }
 }
 
-fn distance(a: Point, b: Point) -> f64 {
+fn distance(a: ScenePoint, b: ScenePoint) -> f64 {
     (b[0] - a[0]).hypot(b[1] - a[1])
 }
 

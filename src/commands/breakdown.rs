@@ -30,10 +30,10 @@ pub(super) fn run(args: &BreakdownArgs, context: &mut Context) -> Result<Outcome
     Ok(outcome)
 }
 
-type Made = (Vec<EngineRun>, Vec<Failure>);
+type MadeRuns = (Vec<EngineRun>, Vec<Failure>);
 
 /// Runs that come with the program, or runs in the folder, completed there; for a shard the outcome to print.
-fn runs(args: &BreakdownArgs, context: &mut Context) -> Result<Result<Made, Outcome>> {
+fn runs(args: &BreakdownArgs, context: &mut Context) -> Result<Result<MadeRuns, Outcome>> {
     if args.runs.stored {
         return Ok(Ok((stored()?.into_iter().filter(|run| run.seed == 1).collect(), Vec::new())));
     }

@@ -1,7 +1,7 @@
 use super::shards::{Work, by_scheduler, shard};
 use crate::cli::SweepArgs;
 use crate::prelude::*;
-use crate::tables::TextTable as Rows;
+use crate::tables::TextTable;
 use ::sweep::influence::{influences, pairs};
 use data::Table;
 use data::table::Column;
@@ -111,7 +111,7 @@ fn swept_text(study: &Study, found: &Found, table: &Table) -> String {
     );
     for engine in &study.engines {
         for (output, what) in study.heights() {
-            text += &Rows::of(influences(study, table, *engine, output))
+            text += &TextTable::of(influences(study, table, *engine, output))
                 .words("key", |i| i.key.clone())
                 .number("lowest mm", 1, |i| i.range()[0])
                 .number("highest mm", 1, |i| i.range()[1])

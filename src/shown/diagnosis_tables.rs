@@ -129,7 +129,7 @@ pub(crate) fn unseen(d: &Diagnosis) -> TextTable<&Undetectable> {
 }
 
 /// Experiments that were thought through, with a title; none without them.
-pub(crate) fn experiments(d: &Diagnosis) -> Option<(String, TextTable<Tried<'_>>)> {
+pub(crate) fn experiments(d: &Diagnosis) -> Option<(String, TextTable<TriedProtocol<'_>>)> {
     let next = d.next_experiment.as_ref().filter(|next| !next.tried.is_empty())?;
     let tried = next.tried.iter().map(|e| (e.name.as_str(), e.shown_protocol(), e.needed, &e.separations[..]));
     let mut rows = TextTable::of(std::iter::once(("data at hand", "–", next.needed_now, &next.now[..])).chain(tried))
@@ -143,4 +143,4 @@ pub(crate) fn experiments(d: &Diagnosis) -> Option<(String, TextTable<Tried<'_>>
 }
 
 /// Name, protocol, runs that suffice, separations from the rivals.
-pub(crate) type Tried<'a> = (&'a str, &'a str, f64, &'a [Separation]);
+pub(crate) type TriedProtocol<'a> = (&'a str, &'a str, f64, &'a [Separation]);

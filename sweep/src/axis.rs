@@ -153,15 +153,15 @@ pub(crate) fn channel(key: &str) -> Option<Option<usize>> {
 }
 
 /// Values set in a scenario, and the pressures of its channels if they are among the keys \[kPa\].
-pub(crate) struct Changes {
+pub(crate) struct CaseChanges {
     pub values: Vec<(String, String)>,
     pub pressures_kpa: Option<[f64; CHANNELS]>,
 }
 
-impl Changes {
+impl CaseChanges {
     /// Of keys with their values. If only some channels have a pressure, the others get 0.
-    pub(crate) fn of<'a>(all: impl Iterator<Item = (&'a Axis, Value)>) -> Changes {
-        let mut changes = Changes { values: Vec::with_capacity(all.size_hint().0), pressures_kpa: None };
+    pub(crate) fn of<'a>(all: impl Iterator<Item = (&'a Axis, Value)>) -> CaseChanges {
+        let mut changes = CaseChanges { values: Vec::with_capacity(all.size_hint().0), pressures_kpa: None };
         for (axis, value) in all {
             match (channel(&axis.key), as_number(&value)) {
                 (Some(None), Some(kpa)) => changes.pressures_kpa = Some([kpa; CHANNELS]),

@@ -41,7 +41,7 @@ pub struct SweepMap {
 
 /// The keys of a study by how far they move an output of an engine, the furthest first. Failed cases are left out.
 pub fn influences(study: &Study, table: &Table, engine: Engine, output: &str) -> Vec<Influence> {
-    let Some(rows) = Solved::of(table, engine, output) else { return Vec::new() };
+    let Some(rows) = SolvedCase::of(table, engine, output) else { return Vec::new() };
     let of = |key: String| {
         let grouped = rows.grouped(table, &key)?;
         let mean = |g: usize| rows.mean(|i| grouped.of_row[i] == g);
@@ -57,7 +57,7 @@ pub fn influences(study: &Study, table: &Table, engine: Engine, output: &str) ->
 pub fn pairs(table: &Table, output: &str) -> Vec<[f64; 2]> {
     let Some(Column::I64(cases)) = column(table, "case") else { return Vec::new() };
     let of = |engine| {
-        let rows = Solved::of(table, engine, output);
+        let rows = SolvedCase::of(table, engine, output);
         rows.map_or(Vec::new(), |rows| rows.rows.into_iter().map(|i| cases[i]).zip(rows.values).collect())
     };
     let reduced: std::collections::BTreeMap<i64, f64> = of(Engine::Reduced).into_iter().collect();
@@ -67,14 +67,14 @@ pub fn pairs(table: &Table, output: &str) -> Vec<[f64; 2]> {
 
 /// Means of an output over groups of two keys; `None` if a key or output is not in the table.
 pub fn map(table: &Table, engine: Engine, output: &str, keys: [&str; 2]) -> Option<SweepMap> {
-    let rows = Solved::of(table, engine, output)?;
+    let rows = SolvedCase::of(table, engine, output)?;
     let [down, across] = [rows.grouped(table, keys[0])?, rows.grouped(table, keys[1])?];
     let mean = |r: usize, c: usize| rows.mean(|i| down.of_row[i] == r && across.of_row[i] == c);
     let means = (0..down.names.len()).map(|r| (0..across.names.len()).map(|c| mean(r, c)).collect()).collect();
     Some(SweepMap { keys: keys.map(String::from), names: [down.names, across.names], means })
 }
 
-struct Solved {
+struct SolvedCase {
     rows: Vec<usize>,
     values: Vec<f64>,
 }
@@ -88,14 +88,14 @@ fn column<'t>(table: &'t Table, name: &str) -> Option<&'t Column> {
     table.columns.iter().find(|column| column.0 == name).map(|column| &column.1)
 }
 
-impl Solved {
-    fn of(table: &Table, engine: Engine, output: &str) -> Option<Solved> {
+impl SolvedCase {
+    fn of(table: &Table, engine: Engine, output: &str) -> Option<SolvedCase> {
         let (Column::Str(engines), Column::F64(all)) = (column(table, "engine")?, column(table, output)?) else {
             return None;
         };
         let rows: Vec<usize> = (0..all.len()).filter(|i| engines[*i] == engine.word() && all[*i].is_finite()).collect();
         let values = rows.iter().map(|i| all[*i]).collect();
-        Some(Solved { rows, values })
+        Some(SolvedCase { rows, values })
     }
 
     /// A group for each value, or groups of equally many cases if there are more values.

@@ -1,6 +1,6 @@
 //! Some cases that are computed together, and their file.
 
-use crate::axis::Changes;
+use crate::axis::CaseChanges;
 use crate::policy::{PART, PARTS};
 use crate::study::{Engine, Study};
 use crate::{SweepError, pieces};
@@ -49,7 +49,7 @@ impl StudyPart {
         let mut told = format!("ibr sweep {FORMAT}, {engine}, {}\n{}\n", words.join(" "), study.base.text).into_bytes();
         let per_robot = study.per_robot();
         for robot in self.robots(per_robot) {
-            let Changes { values, pressures_kpa } = study.changes(robot);
+            let CaseChanges { values, pressures_kpa } = study.changes(robot);
             values.iter().for_each(|(key, value)| told.extend(format!("{key} = {value}\n").bytes()));
             let pressures = match &pressures_kpa {
                 Some(channels) => &channels[..],

@@ -1,7 +1,7 @@
 //! The TOML file of a sweep: the keys to vary, and the outputs of every case.
 
 pub use crate::axis::{Axis, PRESSURE};
-use crate::axis::{Changes, Levels, RawAxis, as_number, assumed, axes, channel};
+use crate::axis::{CaseChanges, Levels, RawAxis, as_number, assumed, axes, channel};
 use crate::form::{Form, ReadRobot, Wrong};
 use crate::policy::MOST_CASES;
 use crate::sample::{Method, Points};
@@ -259,8 +259,8 @@ impl Study {
     }
 
     /// Values set in the scenario of a robot, and its pressures.
-    pub(crate) fn changes(&self, robot: usize) -> Changes {
-        Changes::of(self.axes.iter().zip(self.values(robot)))
+    pub(crate) fn changes(&self, robot: usize) -> CaseChanges {
+        CaseChanges::of(self.axes.iter().zip(self.values(robot)))
     }
 
     /// A robot, and its pressures in every channel \[kPa\].
@@ -285,7 +285,7 @@ impl Study {
         robot: usize,
         make: impl Fn(&[(String, String)]) -> Result<T, CompareError>,
     ) -> Result<(T, Vec<[f64; CHANNELS]>), CompareError> {
-        let Changes { values, pressures_kpa } = self.changes(robot);
+        let CaseChanges { values, pressures_kpa } = self.changes(robot);
         let all = || self.pressures_kpa.iter().map(|kpa| [*kpa; CHANNELS]).collect();
         Ok((make(&values)?, pressures_kpa.map_or_else(all, |own| vec![own])))
     }

@@ -123,7 +123,7 @@ enum BenchPiece {
 }
 
 /// What a piece gave, or why it failed.
-pub type Answer = Result<PieceResult, String>;
+pub type PieceAnswer = Result<PieceResult, String>;
 
 /// What a piece of work gave.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -162,7 +162,7 @@ impl PlannedBench {
     }
 
     /// Makes the data of a piece and diagnoses them.
-    pub fn answer(&self, piece: usize, diagnose: Diagnoser) -> Answer {
+    pub fn answer(&self, piece: usize, diagnose: Diagnoser) -> PieceAnswer {
         let (found, what) = match &self.pieces[piece] {
             BenchPiece::Set(set) => return cases::named(set, diagnose).map(|named| PieceResult::Set(Box::new(named))),
             BenchPiece::Slipped(seed, index) => {
@@ -182,7 +182,7 @@ impl PlannedBench {
     }
 
     /// The table, of the answers to all pieces in order.
-    pub fn table(self, answers: Vec<Answer>) -> Discovery {
+    pub fn table(self, answers: Vec<PieceAnswer>) -> Discovery {
         let (mut outcomes, mut made, mut failed) = (Vec::new(), Vec::new(), Vec::new());
         let (mut slipped, mut surplus, mut faults) = (Vec::new(), Vec::new(), Vec::new());
         for (piece, answer) in self.pieces.into_iter().zip(answers) {

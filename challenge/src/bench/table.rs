@@ -52,7 +52,7 @@ const OUTSIDE: Counted = ("with an alarm: called outside the catalogue", AtMost(
 const NOTHING: Lot = Lot::Hidden(Hiding::Nothing);
 const ONE: Lot = Lot::Hidden(Hiding::One);
 
-type Sets<'o> = Vec<(&'o SetOutcome, &'o Named)>;
+type NamedOutcomes<'o> = Vec<(&'o SetOutcome, &'o Named)>;
 
 pub(super) fn rows(outcomes: &[SetOutcome]) -> Vec<Rate> {
     let mut rows = nothing(outcomes);
@@ -65,7 +65,7 @@ pub(super) fn rows(outcomes: &[SetOutcome]) -> Vec<Rate> {
     for (part, case) in [(Lot::Clamp, "a clamp of any stiffness"), (Lot::Softening, "a softening wall")] {
         rows.extend(named(&found(outcomes, part), case, &[ALARM], &[ALONE_IN_SET]));
     }
-    let all: Sets = outcomes.iter().filter_map(|o| Some((o, o.named.as_ref()?))).collect();
+    let all: NamedOutcomes = outcomes.iter().filter_map(|o| Some((o, o.named.as_ref()?))).collect();
     rows.extend(after(outcomes));
     let two: [Counted; 5] = [
         ("at least one named", AtLeast(0.90), |n| n.score.named >= 1),
@@ -81,7 +81,8 @@ pub(super) fn rows(outcomes: &[SetOutcome]) -> Vec<Rate> {
     rows.extend(quality(outcomes));
     // Exchanged labels are the slip among the hidden effects.
     let is_slip = |outcome: &SetOutcome| outcome.truth.effects.iter().any(|choice| choice.name == "swapped_markers");
-    let (slipped, right): (Sets, Sets) = all.iter().copied().partition(|(outcome, _)| is_slip(outcome));
+    let (slipped, right): (NamedOutcomes, NamedOutcomes) =
+        all.iter().copied().partition(|(outcome, _)| is_slip(outcome));
     rows.push(share(&slipped, "labels exchanged", ("reported as a slip", AtLeast(0.90), |n| n.slip)));
     rows.push(share(&right, "all other sets", ("a slip reported without one", AtMost(0.01), |n| n.slip)));
     let pressures: Counted = ("a slip of pressures reported", AtMost(0.01), |n| n.pressure_slip);
@@ -89,7 +90,7 @@ pub(super) fn rows(outcomes: &[SetOutcome]) -> Vec<Rate> {
     rows
 }
 
-pub(super) fn found(outcomes: &[SetOutcome], part: Lot) -> Sets<'_> {
+pub(super) fn found(outcomes: &[SetOutcome], part: Lot) -> NamedOutcomes<'_> {
     outcomes.iter().filter(|o| o.part == part).filter_map(|o| Some((o, o.named.as_ref()?))).collect()
 }
 
@@ -98,20 +99,21 @@ fn share(sets: &[(&SetOutcome, &Named)], case: &'static str, (figure, goal, hit)
 }
 
 /// Shares of all sets, then of those with an alarm.
-fn named(sets: &Sets, case: &'static str, of_all: &[Counted], of_asked: &[Counted]) -> Vec<Rate> {
+fn named(sets: &NamedOutcomes, case: &'static str, of_all: &[Counted], of_asked: &[Counted]) -> Vec<Rate> {
     let asked = asked(sets);
     let of_all = of_all.iter().map(|counted| share(sets, case, *counted));
     of_all.chain(of_asked.iter().map(|counted| share(&asked, case, *counted))).collect()
 }
 
-fn asked<'o>(sets: &Sets<'o>) -> Sets<'o> {
+fn asked<'o>(sets: &NamedOutcomes<'o>) -> NamedOutcomes<'o> {
     sets.iter().filter(|(_, named)| named.score.alarm).copied().collect()
 }
 
 fn nothing(outcomes: &[SetOutcome]) -> Vec<Rate> {
     let (case, tested_case) = ("no hidden effect", "no hidden effect, B measured to 10 %");
     let (all, tested) = (found(outcomes, NOTHING), found(outcomes, Lot::Measured(Hiding::Nothing)));
-    let (few, many): (Sets, Sets) = all.iter().copied().partition(|(outcome, _)| outcome.truth.runs < 5);
+    let (few, many): (NamedOutcomes, NamedOutcomes) =
+        all.iter().copied().partition(|(outcome, _)| outcome.truth.runs < 5);
     let held: Vec<bool> = all.iter().filter_map(|(_, named)| named.bending_held).collect();
     let lossy = found(outcomes, Lot::LostMarkers(Hiding::Nothing));
     let white = found(outcomes, Lot::White(Hiding::Nothing));
@@ -190,11 +192,11 @@ fn median(values: &[f64]) -> Option<f64> {
 }
 
 /// How often a truth had a name; λ, BIC behind and smallest size of these sets.
-type Cell = (usize, [Vec<f64>; 3]);
+type NameCount = (usize, [Vec<f64>; 3]);
 
 /// Truth against the name on top, single effects, by truth and then by frequency.
 pub(super) fn confusion(outcomes: &[SetOutcome]) -> Vec<Confusion> {
-    let mut cells: BTreeMap<(String, String), Cell> = BTreeMap::new();
+    let mut cells: BTreeMap<(String, String), NameCount> = BTreeMap::new();
     for (outcome, found) in found(outcomes, ONE) {
         let truth = names(&outcome.truth).join(" + ");
         let named = match found.answer.verdict.as_deref().unwrap_or_default() {

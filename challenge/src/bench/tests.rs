@@ -54,7 +54,7 @@ fn a_diagnosis_that_fails_is_counted_and_named() {
     let refuse: Diagnoser = |_, _, _, _| Err(CompareError::NoModel);
     let bench = PlannedBench::plan(DiscoveryOptions { seed: 1, sets: WHOLE, laws: Laws::First }).unwrap();
     let sets = plan(&bench.options).unwrap().len();
-    let answers: Vec<Answer> = (0..bench.pieces.len()).map(|piece| bench.answer(piece, refuse)).collect();
+    let answers: Vec<PieceAnswer> = (0..bench.pieces.len()).map(|piece| bench.answer(piece, refuse)).collect();
     assert_eq!(
         answers.len(),
         sets + made::MADE.len() + slipped::count(WHOLE) + surplus::count(WHOLE) + faults::count(WHOLE)

@@ -16,7 +16,7 @@ use crate::evidence::Evidence;
 use crate::policy;
 use crate::progress::Progress;
 use crate::scenario_file::ScenarioFile;
-use crate::typed_effect::{Values, typed, values_of, with_values};
+use crate::typed_effect::{TypedValues, typed, values_of, with_values};
 use models::{Known, Scenario};
 pub(crate) use steps::Ground;
 pub use steps::{ErrorStep, error_steps};
@@ -36,7 +36,7 @@ pub enum EffectWish {
     /// The named effect, fitted on data; or taken away, as `without NAME`.
     Fitted(String),
     /// The named effect with these values, in the units of the scenario.
-    Given(String, Values),
+    Given(String, TypedValues),
 }
 
 impl EffectWish {
@@ -128,7 +128,7 @@ pub fn add(
     Ok(extension)
 }
 
-fn assumed(file: &ScenarioFile, name: &str, values: &Values) -> Result<Extension, CompareError> {
+fn assumed(file: &ScenarioFile, name: &str, values: &TypedValues) -> Result<Extension, CompareError> {
     let sentence = file.catalogue().by_name(name).map(|e| e.sentence.to_string());
     let addition = Addition::of(name, values.clone(), Known::Assumed, sentence);
     let told = vec![format!("Assumed: {}. Nothing was fitted; name data to fit it.", with_values_told(&addition))];
@@ -169,7 +169,7 @@ fn given(
     file: &ScenarioFile,
     before: &Ground,
     after: &Ground,
-    (name, values): (&str, &Values),
+    (name, values): (&str, &TypedValues),
 ) -> Result<Extension, CompareError> {
     let addition = before.addition(name, values.clone(), Known::Assumed);
     let told = vec![format!("Assumed: {}; B was fitted with it.", with_values_told(&addition))];

@@ -4,7 +4,7 @@
 use crate::diagnosis::taken_away;
 use crate::error::CompareError;
 use crate::scenario_file::ScenarioFile;
-use crate::typed_effect::{Values, with_values};
+use crate::typed_effect::{TypedValues, with_values};
 use models::{Known, Scenario};
 use toml_edit::{Decor, DocumentMut, Item, Table, Value, value};
 
@@ -31,7 +31,7 @@ pub struct Addition {
 
 impl Addition {
     /// An effect without data, written today.
-    pub(super) fn of(name: &str, values: Values, known: Known, remark: Option<String>) -> Addition {
+    pub(super) fn of(name: &str, values: TypedValues, known: Known, remark: Option<String>) -> Addition {
         Addition {
             name: name.into(),
             values,

@@ -59,13 +59,13 @@ fn number_of(p: &models::effects::Parameter, key: &str, text: &str, help: String
 }
 
 /// Keys and values of an effect, in the units of the scenario.
-pub type Values = Vec<(String, f64)>;
+pub type TypedValues = Vec<(String, f64)>;
 
 /// Name of an effect that the scenario lacks, and its values if any were typed.
 ///
 /// # Errors
 /// As [`with_effect`], and an effect that is there already.
-pub fn typed(scenario: &Scenario, text: &str) -> Result<(String, Option<Values>), CompareError> {
+pub fn typed(scenario: &Scenario, text: &str) -> Result<(String, Option<TypedValues>), CompareError> {
     let place = text.find([':', '=']).unwrap_or(text.len());
     let (name, rest) = text.split_at(place);
     let catalogue = scenario.catalogue();
@@ -93,7 +93,7 @@ pub(crate) fn with_values(scenario: &Scenario, name: &str, value: impl Fn(&str) 
 }
 
 /// The values that an effect has in a scenario; its typical values where the scenario lacks it.
-pub fn values_of(scenario: &Scenario, name: &str) -> Values {
+pub fn values_of(scenario: &Scenario, name: &str) -> TypedValues {
     let catalogue = scenario.catalogue();
     let Some(effect) = catalogue.by_name(name) else { return Vec::new() };
     let own = scenario.effects.iter().find(|e| e.name == name).map(|e| e.values.clone());

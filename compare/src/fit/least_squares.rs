@@ -61,7 +61,7 @@ const DAMPING: [f64; 2] = [1e-3, 1e8];
 pub(crate) type Residuals<'a> = dyn FnMut(&[f64]) -> Option<Vec<f64>> + 'a;
 
 /// Derivatives of residuals at a place, one column per coordinate.
-pub(crate) type Slopes<'a> = dyn FnMut(&Minimum, &mut Residuals) -> Vec<Vec<f64>> + 'a;
+pub(crate) type ResidualSlopes<'a> = dyn FnMut(&Minimum, &mut Residuals) -> Vec<Vec<f64>> + 'a;
 
 /// Minimises the sum of squares from `start` until a round lowers it by less than `enough`; `None` if the residuals do
 /// not exist there.
@@ -74,7 +74,7 @@ pub(crate) fn minimise_by(
     ranges: &[FitRange],
     enough: f64,
     residuals: &mut Residuals,
-    slopes: &mut Slopes,
+    slopes: &mut ResidualSlopes,
 ) -> Option<Minimum> {
     let at: Vec<f64> = start.iter().zip(ranges).map(|(x, r)| x.clamp(r.lower, r.upper)).collect();
     let mut best = Minimum::there(at, residuals)?;

@@ -2,7 +2,7 @@
 //!
 //! With U diag(√v) = Q T and T Tᵀ = E diag(w) Eᵀ, r_w = (r + B((1 + w/s²)^−½ − 1)Bᵀ r)/s, B = Q E, has covariance I.
 
-use crate::directions::Row;
+use crate::directions::DirectionRow;
 use crate::error::CompareError;
 use crate::fit::least_squares::dot;
 use nalgebra::{DMatrix, SymmetricEigen};
@@ -23,15 +23,15 @@ pub struct Whitener {
 
 impl Whitener {
     /// `directions` are the rows of U, `unit_m` is s \[m\] (positive), `variances` is v.
-    pub fn new(directions: &[Row], unit_m: f64, variances: &Row) -> Result<Whitener, CompareError> {
+    pub fn new(directions: &[DirectionRow], unit_m: f64, variances: &DirectionRow) -> Result<Whitener, CompareError> {
         Self::with_columns(directions, unit_m, variances, &[])
     }
 
     /// The same with further columns of U, each times the square root of its variance.
     pub fn with_columns(
-        directions: &[Row],
+        directions: &[DirectionRow],
         unit_m: f64,
-        variances: &Row,
+        variances: &DirectionRow,
         columns: &[Vec<f64>],
     ) -> Result<Whitener, CompareError> {
         // In the plane the others are zero.
@@ -80,7 +80,7 @@ mod tests {
     use super::*;
 
     /// W Σ Wᵀ = I, column by column, for W taken from the whitener.
-    fn largest_departure_from_identity(rows: &[Row], s: f64, v: &Row) -> f64 {
+    fn largest_departure_from_identity(rows: &[DirectionRow], s: f64, v: &DirectionRow) -> f64 {
         let n = rows.len();
         let whitener = Whitener::new(rows, s, v).unwrap();
         let unit = |i: usize| (0..n).map(|k| f64::from(u8::from(k == i))).collect::<Vec<f64>>();
@@ -92,7 +92,7 @@ mod tests {
 
     #[test]
     fn the_whitened_covariance_is_the_identity() {
-        let rows: Vec<Row> = (0..12)
+        let rows: Vec<DirectionRow> = (0..12)
             .map(|i| {
                 let x = 0.03 * f64::from(i);
                 [x * x, f64::from(u8::from(i % 2 == 0)), f64::from(u8::from(i % 2 == 1)), x, 0.0, 0.0, 0.0]
@@ -101,11 +101,12 @@ mod tests {
         assert!(
             largest_departure_from_identity(&rows, 1e-3, &[4e-4, 2.5e-7, 2.5e-7, 1e-6, 2.5e-7, 1e-6, 1e-6]) < 1e-10
         );
-        let in_space: Vec<Row> = rows.iter().map(|[p, x, y, ..]| [*p, *x, *y, 0.3, p - y, 0.1 * x, p + 0.2]).collect();
+        let in_space: Vec<DirectionRow> =
+            rows.iter().map(|[p, x, y, ..]| [*p, *x, *y, 0.3, p - y, 0.1 * x, p + 0.2]).collect();
         assert!(
             largest_departure_from_identity(&in_space, 1e-3, &[4e-4, 2.5e-7, 2.5e-7, 1e-6, 2.5e-7, 1e-6, 1e-6]) < 1e-10
         );
-        assert!(largest_departure_from_identity(&rows, 1e-3, &Row::default()) < 1e-12);
+        assert!(largest_departure_from_identity(&rows, 1e-3, &DirectionRow::default()) < 1e-12);
         assert!(
             largest_departure_from_identity(&rows[..3], 1e-3, &[4e-4, 2.5e-7, 2.5e-7, 1e-6, 2.5e-7, 1e-6, 1e-6])
                 < 1e-10

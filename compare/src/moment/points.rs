@@ -41,7 +41,7 @@ const CLEAR: f64 = 3.0;
 const COMPLETE: f64 = 3.0;
 
 /// A weighted sum over (moment, place).
-type Sum = Vec<(f64, usize, usize)>;
+type WeightedSum = Vec<(f64, usize, usize)>;
 
 pub(crate) fn moments(view: &View, shape: &Shape, robot: &RobotScenarios) -> Result<Moments, CompareError> {
     let field = MomentField::of(view, shape, robot)?;
@@ -54,7 +54,7 @@ pub(crate) fn moments(view: &View, shape: &Shape, robot: &RobotScenarios) -> Res
             continue;
         }
         let first = hold * groups;
-        let own = |p: &usize| (0..groups).map(|g| (1.0 / groups as f64, first + g, *p)).collect::<Sum>();
+        let own = |p: &usize| (0..groups).map(|g| (1.0 / groups as f64, first + g, *p)).collect::<WeightedSum>();
         let length = |p: usize| shape.division.places[p].length_m();
         let all: f64 = places.iter().map(|p| length(*p)).sum();
         let weight = |p: usize| length(p) / all;
@@ -63,7 +63,7 @@ pub(crate) fn moments(view: &View, shape: &Shape, robot: &RobotScenarios) -> Res
             labels.push((hold, Some(*place), None));
         }
         let whole = places.iter().flat_map(own).map(|(w, m, p)| (w * weight(p), m, p));
-        wholes.push((whole.collect::<Sum>(), (hold, None, None)));
+        wholes.push((whole.collect::<WeightedSum>(), (hold, None, None)));
         for group in 1..groups {
             let pair = |p: &usize| [(weight(*p), first + group, *p), (-weight(*p), first, *p)];
             sums.push(places.iter().flat_map(pair).collect());
@@ -71,7 +71,7 @@ pub(crate) fn moments(view: &View, shape: &Shape, robot: &RobotScenarios) -> Res
         }
     }
     let per = degrees(view.scenario.length_m);
-    let told = |(sum, (hold, place, since_first)): (&Sum, &(usize, Option<usize>, Option<usize>))| {
+    let told = |(sum, (hold, place, since_first)): (&WeightedSum, &(usize, Option<usize>, Option<usize>))| {
         let at = &view.dataset.holds[*hold];
         let [kappa, moment_nm] = field.value(sum);
         let [kappa_sd, moment_sd_nm, correlation] = field.errors(sum, shape, &layout);
@@ -153,14 +153,14 @@ impl MomentField {
         active
     }
 
-    fn value(&self, sum: &Sum) -> [f64; 2] {
+    fn value(&self, sum: &WeightedSum) -> [f64; 2] {
         let of = |field: &[Vec<f64>]| sum.iter().map(|(weight, m, p)| weight * field[*m][*p]).sum();
         // The bend of a change is the change of bend.
         [of(&self.kappa), of(&self.missing)]
     }
 
     /// Derivative of a sum by the numbers of the shape: of moments, or of bends.
-    fn gradient(&self, sum: &Sum, shape: &Shape, layout: &ShapeLayout, moments: bool) -> RowDVector<f64> {
+    fn gradient(&self, sum: &WeightedSum, shape: &Shape, layout: &ShapeLayout, moments: bool) -> RowDVector<f64> {
         let mut row = RowDVector::zeros(shape.numbers.len());
         for (weight, m, place) in sum {
             let at = shape.division.moments[*m];
@@ -172,7 +172,7 @@ impl MomentField {
     }
 
     /// Standard deviations of bend and moment, and their correlation: of the covariance of the shape's numbers, shared ones too.
-    fn errors(&self, sum: &Sum, shape: &Shape, layout: &ShapeLayout) -> [f64; 3] {
+    fn errors(&self, sum: &WeightedSum, shape: &Shape, layout: &ShapeLayout) -> [f64; 3] {
         let [bend, moment] = [false, true].map(|moments| self.gradient(sum, shape, layout, moments));
         let covariance = |a: &RowDVector<f64>, b: &RowDVector<f64>| (a * &shape.covariance * b.transpose())[(0, 0)];
         let [bend_sd, moment_sd] = [&bend, &moment].map(|row| covariance(row, row).max(0.0).sqrt());

@@ -9,9 +9,9 @@ const SMALLEST_NEW_PART: f64 = 1e-3;
 
 /// What one value of U is moved by: pressure, shifts along x and y, rotation about z; in space also the shift along z and the
 /// rotations about x and y, which are 0 in the plane.
-pub(crate) type Row = [f64; 7];
+pub(crate) type DirectionRow = [f64; 7];
 
-/// The rows of [`Row`] that are shifts, and those that are rotations.
+/// The rows of [`DirectionRow`] that are shifts, and those that are rotations.
 pub(crate) const SHIFTS: [usize; 3] = [1, 2, 4];
 pub(crate) const ROTATIONS: [usize; 3] = [3, 5, 6];
 
@@ -19,14 +19,14 @@ pub(crate) const ROTATIONS: [usize; 3] = [3, 5, 6];
 const PRIORITY: [usize; 7] = [1, 2, 4, 3, 5, 6, 0];
 
 /// U of a dataset, with zeros where too few runs saw a marker: with the residual zero there too, such values are as if they were not.
-pub(crate) fn directions_of(dataset: &Dataset, dprediction_dlnp: &[f64]) -> Vec<Row> {
+pub(crate) fn directions_of(dataset: &Dataset, dprediction_dlnp: &[f64]) -> Vec<DirectionRow> {
     let mut rows = nuisance_directions(&dataset.mean_over_runs(), dprediction_dlnp, dataset.axes);
-    dataset.unseen_values().for_each(|i| rows[i] = Row::default());
+    dataset.unseen_values().for_each(|i| rows[i] = DirectionRow::default());
     rows
 }
 
 /// U: one row \[∂f/∂ln p, shifts, rotations about the base\] per value in run layout, from the mean over runs \[m\].
-pub(crate) fn nuisance_directions(mean_m: &[f64], dprediction_dlnp: &[f64], axes: usize) -> Vec<Row> {
+pub(crate) fn nuisance_directions(mean_m: &[f64], dprediction_dlnp: &[f64], axes: usize) -> Vec<DirectionRow> {
     let mut rows = Vec::with_capacity(mean_m.len());
     for (place, dp) in mean_m.chunks_exact(axes).zip(dprediction_dlnp.chunks_exact(axes)) {
         let [x, y, z] = std::array::from_fn(|axis| place.get(axis).copied().unwrap_or(0.0));
@@ -41,13 +41,13 @@ pub(crate) fn nuisance_directions(mean_m: &[f64], dprediction_dlnp: &[f64], axes
 pub(crate) struct DirectionFit {
     columns: Vec<usize>,
     basis: Vec<Vec<f64>>,
-    inverse: Vec<Row>,
+    inverse: Vec<DirectionRow>,
 }
 
 impl DirectionFit {
     /// Orthogonalise (Gram–Schmidt, twice); drop directions that vanish or repeat others, and all of them if there
     /// are not more values than directions.
-    pub(crate) fn new(directions: &[Row]) -> DirectionFit {
+    pub(crate) fn new(directions: &[DirectionRow]) -> DirectionFit {
         let mut fit = DirectionFit { columns: Vec::new(), basis: Vec::new(), inverse: Vec::new() };
         for j in PRIORITY {
             fit.add(j, directions.iter().map(|row| row[j]).collect());
@@ -67,9 +67,9 @@ impl DirectionFit {
     }
 
     /// Coefficients of the directions (0 for dropped ones) and what remains.
-    pub(crate) fn solve(&self, deviation: &[f64]) -> (Row, Vec<f64>) {
+    pub(crate) fn solve(&self, deviation: &[f64]) -> (DirectionRow, Vec<f64>) {
         let mut rest = deviation.to_vec();
-        let mut coefficients = Row::default();
+        let mut coefficients = DirectionRow::default();
         for (q, inverse) in self.basis.iter().zip(&self.inverse) {
             let along = dot(q, &rest);
             rest.iter_mut().zip(q).for_each(|(r, q)| *r -= along * q);
@@ -79,7 +79,7 @@ impl DirectionFit {
     }
 
     /// Observed coefficient variances minus the part the camera noise explains, σ² (UᵀU)⁻¹_jj, not below zero.
-    pub(crate) fn noise_free(&self, observed: Row, sigma2: f64) -> Row {
+    pub(crate) fn noise_free(&self, observed: DirectionRow, sigma2: f64) -> DirectionRow {
         std::array::from_fn(|j| {
             let camera: f64 = self.inverse.iter().map(|t| t[j] * t[j]).sum();
             (observed[j] - sigma2 * camera).max(0.0)
@@ -92,7 +92,7 @@ impl DirectionFit {
         if length == 0.0 {
             return;
         }
-        let mut inverse = Row::default();
+        let mut inverse = DirectionRow::default();
         inverse[j] = 1.0;
         for _ in 0..2 {
             for (q, known) in self.basis.iter().zip(&self.inverse) {

@@ -21,7 +21,7 @@
 //! Validity: r is the pressure in the actuator while the markers are seen. Vented (p_set = 0) the pressure is known and the
 //! reading, the zero of the gauge, is not used. Where the pressure runs down during a hold, every sample has its own reading.
 
-use crate::directions::Row;
+use crate::directions::DirectionRow;
 use crate::error::CompareError;
 use crate::fit::numbers::mean;
 use crate::fit::whiten::Whitener;
@@ -186,7 +186,12 @@ impl Gauge {
             column(&|r| policy::SENSOR_SD[0] * r.read_pa),
             column(&|_| policy::ZERO_SD_PA),
         ];
-        Whitener::with_columns(&vec![Row::default(); self.readings.len()], self.scatter_pa, &Row::default(), &columns)
+        Whitener::with_columns(
+            &vec![DirectionRow::default(); self.readings.len()],
+            self.scatter_pa,
+            &DirectionRow::default(),
+            &columns,
+        )
     }
 
     /// Pressure by the laws of a scenario minus what was read \[Pa\], one for each reading.

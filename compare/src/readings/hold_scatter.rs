@@ -25,7 +25,7 @@
 //!
 //! Validity: errors of the holds of a run are independent of each other; three runs and three holds at least.
 
-use crate::directions::{ROTATIONS, Row, SHIFTS};
+use crate::directions::{DirectionRow, ROTATIONS, SHIFTS};
 use crate::fit::numbers::least;
 use crate::layout::Layout;
 use crate::policy;
@@ -127,7 +127,7 @@ impl ErrorDirection {
 pub(crate) fn hold_scatter(
     dataset: &Dataset,
     groups: &[Vec<usize>],
-    rows: &[Row],
+    rows: &[DirectionRow],
     sigma2: f64,
     sigma_dof: usize,
 ) -> HoldNoise {
@@ -155,10 +155,10 @@ struct Means {
 }
 
 impl Means {
-    fn new(dataset: &Dataset, layout: &Layout, rows: &[Row]) -> Means {
+    fn new(dataset: &Dataset, layout: &Layout, rows: &[DirectionRow]) -> Means {
         let width = layout.markers * layout.axes;
         let of = |j: usize| layout.hold_means(&rows.iter().map(|row| row[j]).collect::<Vec<_>>());
-        let u: Vec<Vec<f64>> = (0..Row::default().len()).map(of).collect();
+        let u: Vec<Vec<f64>> = (0..DirectionRow::default().len()).map(of).collect();
         let seen: Vec<bool> = (0..layout.holds * width).map(|i| u.iter().any(|column| column[i] != 0.0)).collect();
         let mean = layout.hold_means(&dataset.mean_over_runs());
         let straight = least(0..layout.holds, |h| dataset.holds[*h].sum_act_pa()).unwrap_or(0) * width;

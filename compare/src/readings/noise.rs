@@ -34,7 +34,7 @@
 //! reports it and no p-value is ever formed.
 
 use crate::data_slope::data_slope;
-use crate::directions::{DirectionFit, ROTATIONS, Row, SHIFTS, directions_of};
+use crate::directions::{DirectionFit, DirectionRow, ROTATIONS, SHIFTS, directions_of};
 use crate::error::CompareError;
 use crate::fit::numbers::{largest, least};
 use crate::fit::whiten::Whitener;
@@ -84,9 +84,9 @@ pub struct NoiseModel {
     /// where the data cannot show it (one run, or a direction that vanishes or repeats another).
     pub run_sd: [Option<f64>; 7],
     /// Variances of the coefficients of the mean, best estimate: for noise floors and ceilings.
-    pub mean_variance: Row,
+    pub mean_variance: DirectionRow,
     /// The same, widened for few runs and floored at the sensor specification: for tests.
-    pub test_variance: Row,
+    pub test_variance: DirectionRow,
     /// Camera noise of each hold on its own \[m\]; empty if not measured. Widely different values mean that σ is not
     /// one number: near a buckling pressure the robot itself scatters.
     pub hold_sigma_m: Vec<f64>,
@@ -94,7 +94,7 @@ pub struct NoiseModel {
     pub runs_identical: bool,
     /// U, one row per value in run layout.
     #[serde(skip)]
-    pub directions: Vec<Row>,
+    pub directions: Vec<DirectionRow>,
     /// Scatter of single holds of one run.
     #[serde(skip)]
     pub per_hold: HoldNoise,
@@ -187,11 +187,11 @@ impl NoiseModel {
     /// # Errors
     /// If the eigenproblem does not converge.
     pub fn whitener_of(&self, sums: &[Weights]) -> Result<Whitener, CompareError> {
-        let direction = |w: &Weights| -> Row {
+        let direction = |w: &Weights| -> DirectionRow {
             std::array::from_fn(|j| w.iter().map(|(i, share)| share * self.directions[*i][j]).sum())
         };
         let along = |column: &Vec<f64>| sums.iter().map(|w| apply(w, column)).collect();
-        let rows: Vec<Row> = sums.iter().map(direction).collect();
+        let rows: Vec<DirectionRow> = sums.iter().map(direction).collect();
         let mut columns: Vec<Vec<f64>> = self.gauge_errors.iter().map(along).collect();
         for (column, sd) in self.per_hold.of_mean(self.runs) {
             columns.push(sums.iter().map(|w| sd * column.along(w.iter().copied())).collect());
@@ -247,7 +247,7 @@ impl NoiseModel {
 
     /// Values that enough runs saw: an alignment error moves each of them, so that its row of U is not zero.
     pub fn seen(&self, range: std::ops::Range<usize>) -> usize {
-        self.directions[range].iter().filter(|u| **u != Row::default()).count()
+        self.directions[range].iter().filter(|u| **u != DirectionRow::default()).count()
     }
 
     /// Values of a whole run that enough runs saw.
@@ -272,8 +272,8 @@ impl NoiseModel {
         self.sigma_m.unwrap_or(NOMINAL_SIGMA_M) / (self.runs as f64).sqrt()
     }
 
-    fn functional_variance(&self, weights: &[(usize, f64)], variances: &Row) -> Option<f64> {
-        let mut projected = Row::default();
+    fn functional_variance(&self, weights: &[(usize, f64)], variances: &DirectionRow) -> Option<f64> {
+        let mut projected = DirectionRow::default();
         for &(i, w) in weights {
             for (p, u) in projected.iter_mut().zip(&self.directions[i]) {
                 *p += w * u;
@@ -287,7 +287,7 @@ impl NoiseModel {
     fn without_scatter(
         status: NoiseStatus,
         sigma_m: Option<f64>,
-        directions: Vec<Row>,
+        directions: Vec<DirectionRow>,
     ) -> Result<NoiseModel, CompareError> {
         let specification = policy::SENSOR_SD.map(|sd| sd * sd);
         let sigma_m = sigma_m.map(|s| s.max(SMALLEST_SIGMA_M));
@@ -310,7 +310,11 @@ impl NoiseModel {
         })
     }
 
-    fn measured(dataset: &Dataset, groups: &[Vec<usize>], directions: Vec<Row>) -> Result<NoiseModel, CompareError> {
+    fn measured(
+        dataset: &Dataset,
+        groups: &[Vec<usize>],
+        directions: Vec<DirectionRow>,
+    ) -> Result<NoiseModel, CompareError> {
         let fit = DirectionFit::new(&directions);
         let within = within_sessions(dataset, groups, &fit);
         let sigma2 = within.sigma2.max(SMALLEST_SIGMA_M.powi(2));
@@ -320,8 +324,8 @@ impl NoiseModel {
         let run_variance = pooled(fit.noise_free(within.coefficient_variance, sigma2), axes);
         let between = pooled(between_sessions(dataset, groups, &fit, sigma2), axes);
         let dof = runs - groups.len();
-        let mut mean_variance = Row::default();
-        let mut test_variance = Row::default();
+        let mut mean_variance = DirectionRow::default();
+        let mut test_variance = DirectionRow::default();
         for j in 0..mean_variance.len() {
             let estimates = match j {
                 j if SHIFTS.contains(&j) => axes * dof,
@@ -355,7 +359,7 @@ impl NoiseModel {
     }
 }
 
-fn quadratic(vector: &Row, variances: &Row) -> f64 {
+fn quadratic(vector: &DirectionRow, variances: &DirectionRow) -> f64 {
     vector.iter().zip(variances).map(|(u, v)| u * u * v).sum()
 }
 

@@ -1,6 +1,6 @@
 //! What repeated runs say about camera noise and run-to-run scatter: the estimates behind [`crate::noise`].
 
-use crate::directions::{DirectionFit, ROTATIONS, Row, SHIFTS};
+use crate::directions::{DirectionFit, DirectionRow, ROTATIONS, SHIFTS};
 use crate::error::CompareError;
 use crate::fit::numbers::{differences, groups, mean};
 use data::Dataset;
@@ -12,13 +12,13 @@ pub(crate) struct Within {
     /// Degrees of freedom of the first.
     pub dof: usize,
     /// Mean square of the runs' coefficients about their session's mean.
-    pub coefficient_variance: Row,
+    pub coefficient_variance: DirectionRow,
 }
 
 pub(crate) fn within_sessions(dataset: &Dataset, groups: &[Vec<usize>], fit: &DirectionFit) -> Within {
     let holds = dataset.holds.len();
     let mut within =
-        Within { sigma2: 0.0, hold_sigma2: vec![0.0; holds], dof: 0, coefficient_variance: Row::default() };
+        Within { sigma2: 0.0, hold_sigma2: vec![0.0; holds], dof: 0, coefficient_variance: DirectionRow::default() };
     let per_marker = dataset.axes * dataset.samples_per_hold;
     let seen_in = |hold: usize| (0..dataset.markers.len()).filter(|m| dataset.is_seen(hold, *m)).count() * per_marker;
     let seen: Vec<usize> = (0..holds).map(seen_in).collect();
@@ -49,13 +49,18 @@ pub(crate) fn within_sessions(dataset: &Dataset, groups: &[Vec<usize>], fit: &Di
 }
 
 /// Variance of the coefficients of the overall mean as the session means show it; zeros for one session.
-pub(crate) fn between_sessions(dataset: &Dataset, groups: &[Vec<usize>], fit: &DirectionFit, sigma2: f64) -> Row {
+pub(crate) fn between_sessions(
+    dataset: &Dataset,
+    groups: &[Vec<usize>],
+    fit: &DirectionFit,
+    sigma2: f64,
+) -> DirectionRow {
     if groups.len() < 2 {
-        return Row::default();
+        return DirectionRow::default();
     }
     let runs = dataset.runs.len() as f64;
     let overall = dataset.mean_over_runs();
-    let mut variance = Row::default();
+    let mut variance = DirectionRow::default();
     for group in groups {
         for (v, c) in variance.iter_mut().zip(fit.solve(&differences(&mean_of(dataset, group), &overall)).0) {
             *v += c * c / (groups.len() - 1) as f64;
@@ -67,7 +72,7 @@ pub(crate) fn between_sessions(dataset: &Dataset, groups: &[Vec<usize>], fit: &D
 }
 
 /// Shifts along all axes are the same kind of error, and so are rotations: one variance for each kind.
-pub(crate) fn pooled(mut variance: Row, axes: usize) -> Row {
+pub(crate) fn pooled(mut variance: DirectionRow, axes: usize) -> DirectionRow {
     for kind in [&SHIFTS[..axes], rotations(axes)] {
         let mean = mean(kind.iter().map(|j| variance[*j]));
         kind.iter().for_each(|j| variance[*j] = mean);

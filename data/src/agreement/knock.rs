@@ -30,9 +30,9 @@ pub(super) fn knock(seen: &Seen) -> Option<Doubt> {
 }
 
 /// When a step is, and the step.
-type Step = (f64, f64, [f64; 3]);
+type PlaceStep = (f64, f64, [f64; 3]);
 
-fn within_hold(run: &SeenRun, level: &Level, least_m: f64) -> Option<Step> {
+fn within_hold(run: &SeenRun, level: &Level, least_m: f64) -> Option<PlaceStep> {
     let frames: Vec<usize> =
         level.frames.iter().copied().filter(|k| run.places_m.iter().all(|column| column[*k][0].is_finite())).collect();
     if frames.len() < 2 * SIDE {
@@ -69,7 +69,7 @@ fn span(run: &SeenRun, from: &Level, to: &Level) -> Option<[f64; 2]> {
     Some([run.times_s[*from.frames.last()?], run.times_s[*to.frames.first()?]])
 }
 
-fn between_holds(run: &SeenRun, least_m: f64) -> Option<Step> {
+fn between_holds(run: &SeenRun, least_m: f64) -> Option<PlaceStep> {
     for (k, to) in run.levels.iter().enumerate() {
         for from in run.levels[..k].iter().rev().filter(|from| from.is_like(to)) {
             if let Some(shift) = common_shift(&steps(from, to)?, least_m) {
@@ -82,7 +82,7 @@ fn between_holds(run: &SeenRun, least_m: f64) -> Option<Step> {
 }
 
 /// Where a run steps from hold to hold by more than all the others.
-fn against_others(seen: &Seen, least_m: f64) -> Option<(&SeenRun, Step)> {
+fn against_others(seen: &Seen, least_m: f64) -> Option<(&SeenRun, PlaceStep)> {
     if seen.runs.len() < 3 || !seen.same_holds() {
         return None;
     }

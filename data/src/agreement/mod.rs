@@ -28,10 +28,10 @@ pub(crate) use frozen::stands_still;
 pub(crate) use seen::{Doubt, LogSeen, Seen};
 
 /// A check: the first contradiction that it finds.
-type Check = fn(&Seen) -> Option<Doubt>;
+type AgreementCheck = fn(&Seen) -> Option<Doubt>;
 
 /// All checks; earlier ones explain what later ones would find.
-const CHECKS: [Check; 16] = [
+const CHECKS: [AgreementCheck; 16] = [
     log::log,
     exchanged::exchanged,
     base::base,

@@ -1,7 +1,7 @@
 //! Recordings that agree with themselves, and each slip made in one of them.
 
 use super::seen::{Doubt, LogSeen, Seen};
-use super::{Check, doubts};
+use super::{AgreementCheck, doubts};
 use crate::import::{ImportOptions, PressedRun};
 
 /// Changes a place \[m\], given run, time and marker.
@@ -127,7 +127,7 @@ fn pressure_kpa(levels: &[f64], t_s: f64) -> f64 {
 }
 
 /// The check names the slip with these words.
-pub(super) fn refused(check: Check, slip: impl Fn(&mut Made), words: &[&str]) {
+pub(super) fn refused(check: AgreementCheck, slip: impl Fn(&mut Made), words: &[&str]) {
     let mut made = Made::new(1);
     slip(&mut made);
     let Doubt { message, help } = check(&made.seen()).unwrap();
@@ -136,7 +136,7 @@ pub(super) fn refused(check: Check, slip: impl Fn(&mut Made), words: &[&str]) {
 }
 
 /// The check has no doubt about right recordings.
-pub(super) fn right(check: Check) {
+pub(super) fn right(check: AgreementCheck) {
     for seed in 0..20 {
         let found = check(&Made::new(seed).seen());
         assert!(found.is_none(), "{seed}: {found:?}");

@@ -22,7 +22,7 @@ pub(super) struct Specimens<'a> {
 }
 
 /// Rows of a curve, the widths of these rows, and how many rows were left out.
-type Kept = (Vec<[f64; 2]>, Vec<f64>, usize);
+type KeptRows = (Vec<[f64; 2]>, Vec<f64>, usize);
 
 #[derive(Default)]
 pub(super) struct RawCoupon {
@@ -142,7 +142,7 @@ impl Specimens<'_> {
     }
 
     /// The first loading, zeroed on the first row: rows that rise above all before. Steps back that are noise are left out and counted.
-    fn rows(&self, raw: &RawCoupon, told: &mut Vec<String>) -> Result<Kept, DataError> {
+    fn rows(&self, raw: &RawCoupon, told: &mut Vec<String>) -> Result<KeptRows, DataError> {
         let ([x, _], column, first) = (self.curve, &self.columns[0], raw.rows[0].0);
         let range = raw.rows.iter().map(|(row, _)| (row[0] - first[0]).abs()).fold(0.0, f64::max);
         let (length, unit) = match x {

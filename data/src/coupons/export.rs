@@ -27,7 +27,7 @@ const SIZES: [(usize, &[&str]); 3] = [
 const LOOKED_AT: usize = 200;
 
 /// A column of one specimen: its index and unit.
-type Found = [Option<(usize, Option<Unit>)>; TIME + 1];
+type SpecimenColumns = [Option<(usize, Option<Unit>)>; TIME + 1];
 
 /// The specimens of an export, under this program's names; `None` if no row names a curve.
 pub(super) fn read<'a>(sheet: &CellText<'a>, defaults: &CouponDefaults) -> Result<Option<Specimens<'a>>, DataError> {
@@ -141,8 +141,8 @@ fn blocks(
     sheet: &CellText,
     (number, names): &(u64, Vec<&str>),
     units: Option<&Vec<&str>>,
-) -> Result<Vec<Found>, DataError> {
-    let mut blocks: Vec<Found> = Vec::new();
+) -> Result<Vec<SpecimenColumns>, DataError> {
+    let mut blocks: Vec<SpecimenColumns> = Vec::new();
     for (index, text) in names.iter().enumerate() {
         let Some(quantity) = quantity(text) else { continue };
         if blocks.last().is_none_or(|block| block[quantity].is_some()) {
@@ -161,7 +161,7 @@ fn blocks(
 }
 
 /// Displacement and force where the length between the grips is known, else strain and stress, else strain over force.
-fn curve(sheet: &CellText, number: u64, block: &Found, facts: &Facts) -> Result<[usize; 2], DataError> {
+fn curve(sheet: &CellText, number: u64, block: &SpecimenColumns, facts: &Facts) -> Result<[usize; 2], DataError> {
     let has = |curve: &[usize; 2]| curve.iter().all(|quantity| block[*quantity].is_some());
     let [whole, strained, mixed] = [[DISPLACEMENT, FORCE], [STRAIN, STRESS], [STRAIN, FORCE]];
     if facts.numbers[LENGTH].is_some() {
@@ -180,11 +180,11 @@ fn curve(sheet: &CellText, number: u64, block: &Found, facts: &Facts) -> Result<
 }
 
 /// The label of every specimen: the cell above its names, where each has one, else its number; none for a single one.
-fn labels(above: Option<&Vec<&str>>, blocks: &[Found]) -> Vec<String> {
+fn labels(above: Option<&Vec<&str>>, blocks: &[SpecimenColumns]) -> Vec<String> {
     if blocks.len() == 1 {
         return vec![String::new()];
     }
-    let label = |block: &Found| {
+    let label = |block: &SpecimenColumns| {
         let begin = block.iter().flatten().map(|(index, _)| *index).min()?;
         let label = above?.get(begin)?.replace(',', " ");
         (!label.is_empty()).then_some(label)
@@ -198,7 +198,7 @@ fn row(
     sheet: &CellText,
     number: u64,
     cells: &[&str],
-    block: &Found,
+    block: &SpecimenColumns,
     curve: [usize; 2],
 ) -> Result<Option<[f64; 2]>, DataError> {
     let cell = |quantity: usize| block[quantity].map_or("", |(index, _)| cells.get(index).copied().unwrap_or_default());

@@ -8,7 +8,7 @@ use crate::policy::tolerance_act_pa;
 use crate::units::kpa;
 
 /// A run and the frames of its holds.
-pub(crate) type Cut = Vec<(PressedRun, Vec<Kept>)>;
+pub(crate) type CutRuns = Vec<(PressedRun, Vec<Kept>)>;
 
 /// Recordings, whose places in the robot's frame are `xy_m`, with their pressures.
 pub(crate) fn pressed(recordings: Vec<Recording>, xy_m: Vec<Vec<Vec<[f64; 2]>>>) -> Vec<PressedRun> {
@@ -21,14 +21,19 @@ pub(crate) fn pressed(recordings: Vec<Recording>, xy_m: Vec<Vec<Vec<[f64; 2]>>>)
     recordings.into_iter().zip(xy_m).map(run).collect()
 }
 
-pub(crate) fn cut(file: &str, runs: Vec<PressedRun>, options: &ImportOptions, told: &mut Vec<String>) -> Result<Cut> {
+pub(crate) fn cut(
+    file: &str,
+    runs: Vec<PressedRun>,
+    options: &ImportOptions,
+    told: &mut Vec<String>,
+) -> Result<CutRuns> {
     match options.bin_pa {
         Some(bin_pa) => binned(file, runs, bin_pa, told),
         None => held(file, runs, options, told),
     }
 }
 
-fn held(file: &str, runs: Vec<PressedRun>, options: &ImportOptions, told: &mut Vec<String>) -> Result<Cut> {
+fn held(file: &str, runs: Vec<PressedRun>, options: &ImportOptions, told: &mut Vec<String>) -> Result<CutRuns> {
     let (mut cut, mut used, mut taken) = (Vec::new(), 0, [0, 0]);
     let frames: usize = runs.iter().map(|run| run.times_s.len()).sum();
     let least = format!("{} s and {} frames", options.least_hold_s, options.least_frames);
@@ -87,7 +92,7 @@ fn apart(bins: Vec<Bin>) -> Vec<Bin> {
 }
 
 /// Runs by bins of pressure, those bins that all of them have.
-fn binned(file: &str, runs: Vec<PressedRun>, bin_pa: f64, told: &mut Vec<String>) -> Result<Cut> {
+fn binned(file: &str, runs: Vec<PressedRun>, bin_pa: f64, told: &mut Vec<String>) -> Result<CutRuns> {
     let found: Vec<Vec<Bin>> = runs.iter().map(|run| apart(bins(run, bin_pa))).collect();
     let highest_pa = found.iter().flatten().map(|bin| bin.2.act_pa).fold(0.0, f64::max);
     let least_pa = 1.1 * tolerance_act_pa(highest_pa);

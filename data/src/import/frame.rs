@@ -159,7 +159,7 @@ impl CameraRuns<'_> {
         Err(self.fault("the two places of --known-distance are one", help))
     }
 
-    fn where_is(&self, run: usize, place: &FilePlace) -> Result<Found> {
+    fn where_is(&self, run: usize, place: &FilePlace) -> Result<FoundMarker> {
         let found = where_is(&self.runs[run], &self.ends[run], place);
         found.map_err(|[message, help]| self.fault(message, help))
     }
@@ -177,7 +177,7 @@ impl CameraRuns<'_> {
             return Ok((vec![[0.0; 3]; self.runs.len()], None));
         };
         let found = (0..self.runs.len()).map(|run| self.where_is(run, place));
-        let found: Vec<Found> = found.collect::<Result<_>>()?;
+        let found: Vec<FoundMarker> = found.collect::<Result<_>>()?;
         assumed.push(match place {
             FilePlace::At(at) => {
                 let at: Vec<String> = at.iter().map(f64::to_string).collect();
@@ -299,10 +299,10 @@ fn short(value: f64) -> String {
 }
 
 /// A place in the file's units, and the marker that it is.
-pub(crate) type Found = ([f64; 3], Option<usize>);
+pub(crate) type FoundMarker = ([f64; 3], Option<usize>);
 
 /// Where a place of the caller is in a run.
-pub(crate) fn where_is(run: &Recording, ends: &RestAndTop, place: &FilePlace) -> Result<Found, [String; 2]> {
+pub(crate) fn where_is(run: &Recording, ends: &RestAndTop, place: &FilePlace) -> Result<FoundMarker, [String; 2]> {
     let name = match place {
         FilePlace::At(values) => {
             let mut at = [0.0; 3];

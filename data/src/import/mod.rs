@@ -52,7 +52,7 @@ use crate::read::{ReadOptions, parse_markers};
 use crate::units::kpa;
 pub use board::read_board;
 pub use columns::QUANTITIES;
-use cut::{Cut, cut, pressed};
+use cut::{CutRuns, cut, pressed};
 pub use format::Format;
 pub use formats::{FORMATS, LOGS};
 use frame::{CameraRuns, PlacedRuns, RestAndTop};
@@ -146,7 +146,7 @@ pub fn import(files: &[PathBuf], options: &ImportOptions, progress: Progress) ->
 }
 
 /// What the reader refuses in the table, with the holds of every run.
-fn unusable(file: &str, cut: &Cut, error: &DataError) -> DataError {
+fn unusable(file: &str, cut: &CutRuns, error: &DataError) -> DataError {
     let shown = |hold: &Kept| format!("{:.0}", kpa(hold.act_pa)).replace("-0", "0");
     let of_run = |(run, kept): &(PressedRun, Vec<Kept>)| {
         let first: Vec<String> = kept.iter().take(MOST_HOLDS).map(shown).collect();

@@ -7,7 +7,7 @@ use super::segments::{HoldSegment, Stream};
 use crate::policy;
 use crate::units::mm;
 
-type Place = [u64; 3];
+type PlaceBits = [u64; 3];
 
 /// Rows that were taken as not seen, and the line of the first, by their position in words.
 #[derive(Debug, Default)]
@@ -52,26 +52,26 @@ impl Placeholders {
     }
 }
 
-fn is_at(place: [f64; 3], other: Place) -> bool {
+fn is_at(place: [f64; 3], other: PlaceBits) -> bool {
     place.map(f64::to_bits) == other
 }
 
 /// Places that stood still in the streams of two markers or more, and are far from all others of each.
-fn shared(streams: &[Stream]) -> Vec<Place> {
-    let mut still: Vec<(Place, usize)> = Vec::new();
+fn shared(streams: &[Stream]) -> Vec<PlaceBits> {
+    let mut still: Vec<(PlaceBits, usize)> = Vec::new();
     for stream in streams {
         still.extend(stream.segments.iter().flat_map(stood_still).map(|place| (place, stream.marker)));
     }
     still.sort_unstable();
     still.dedup();
     let of_one_place = still.chunk_by(|a, b| a.0 == b.0).filter(|markers| markers.len() > 1);
-    let far = |markers: &&[(Place, usize)]| markers.iter().all(|(place, marker)| is_far(streams, *marker, *place));
+    let far = |markers: &&[(PlaceBits, usize)]| markers.iter().all(|(place, marker)| is_far(streams, *marker, *place));
     of_one_place.filter(far).map(|markers| markers[0].0).collect()
 }
 
 /// Places of which a segment has two samples in a row, or its only one.
-fn stood_still(segment: &HoldSegment) -> Vec<Place> {
-    let places: Vec<Place> = segment.samples.iter().map(|sample| sample.place().map(f64::to_bits)).collect();
+fn stood_still(segment: &HoldSegment) -> Vec<PlaceBits> {
+    let places: Vec<PlaceBits> = segment.samples.iter().map(|sample| sample.place().map(f64::to_bits)).collect();
     match places[..] {
         [only] => vec![only],
         _ => places.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0]).collect(),
@@ -79,7 +79,7 @@ fn stood_still(segment: &HoldSegment) -> Vec<Place> {
 }
 
 /// Whether a marker was nowhere near a place but at it.
-fn is_far(streams: &[Stream], marker: usize, place: Place) -> bool {
+fn is_far(streams: &[Stream], marker: usize, place: PlaceBits) -> bool {
     let [x, y, z] = place.map(f64::from_bits);
     let own = streams.iter().filter(|stream| stream.marker == marker).flat_map(|stream| &stream.segments);
     let others = own.flat_map(|segment| &segment.samples).map(|sample| sample.place()).filter(|p| !is_at(*p, place));

@@ -2,12 +2,12 @@
 
 use crate::dataset::Phase;
 use crate::error::DataError;
-use crate::header::{PRESSURES, Pressures};
+use crate::header::{PRESSURES, RowPressures};
 use crate::policy::{tolerance_act_pa, tolerance_body_pa};
 use crate::rows::Observation;
 
 /// Whether pressures are within so many tolerances of the first.
-pub(crate) fn are_near(of: Pressures, other: Pressures, tolerances: f64) -> bool {
+pub(crate) fn are_near(of: RowPressures, other: RowPressures, tolerances: f64) -> bool {
     let tolerance = |k: usize| if k == 0 { tolerance_body_pa(of[0]) } else { tolerance_act_pa(of[k]) };
     (0..of.len()).all(|k| (other[k] - of[k]).abs() <= tolerances * tolerance(k))
 }
@@ -59,7 +59,7 @@ pub(crate) struct HoldSegment {
     pub too_low: [Option<DataError>; PRESSURES.len()],
     /// Observations per sample; doubles whenever neighbours are merged.
     pub(super) stride: u64,
-    sums_pa: Pressures,
+    sums_pa: RowPressures,
 }
 
 impl HoldSegment {
@@ -72,7 +72,7 @@ impl HoldSegment {
             ends_pa: [row.pressures_pa[1]; 2],
             too_low: Default::default(),
             stride: 1,
-            sums_pa: Pressures::default(),
+            sums_pa: RowPressures::default(),
         }
     }
 
@@ -81,7 +81,7 @@ impl HoldSegment {
     }
 
     /// Mean over the rows of every pressure \[Pa\].
-    pub(crate) fn means_pa(&self) -> Pressures {
+    pub(crate) fn means_pa(&self) -> RowPressures {
         self.sums_pa.map(|sum| sum / self.rows.max(1) as f64)
     }
 

@@ -1,8 +1,8 @@
 //! Fabrics: the numbers and tables of one law, read by the catalogue of `models::fabrics`.
 
 use super::range::{
-    ANGLE, Checked, Free, Range, THICKNESS, Text, at_once, find, number, optional, plain, plain_number, refuse, text,
-    unknown_name,
+    ANGLE, Checked, FreeTable, Range, THICKNESS, Text, at_once, find, number, optional, plain, plain_number, refuse,
+    text, unknown_name,
 };
 use super::raw::RawPly;
 use crate::FemError;
@@ -17,7 +17,7 @@ use toml::{Spanned, Value};
 pub(super) type Fabrics = BTreeMap<String, Arc<dyn Fabric>>;
 
 /// Makes all `[fabric.NAME]`; a laminate comes after the fabrics of its plies.
-pub(super) fn fabrics(tables: &BTreeMap<Text, Spanned<Free>>) -> Checked<Fabrics> {
+pub(super) fn fabrics(tables: &BTreeMap<Text, Spanned<FreeTable>>) -> Checked<Fabrics> {
     let mut made = Fabrics::new();
     let names: Vec<&str> = tables.keys().map(|name| name.get_ref().as_str()).collect();
     while made.len() < tables.len() {
@@ -45,7 +45,7 @@ fn known_parts(plies: &[RawPly], names: &[&str]) -> Checked<()> {
     }
 }
 
-fn circular<T>(tables: &BTreeMap<Text, Spanned<Free>>, made: &Fabrics) -> Checked<T> {
+fn circular<T>(tables: &BTreeMap<Text, Spanned<FreeTable>>, made: &Fabrics) -> Checked<T> {
     let left = tables.keys().find(|name| !made.contains_key(name.get_ref()));
     let (name, span) = left.map_or(("", 0..0), |name| (name.get_ref().as_str(), name.span()));
     let message = format!("the fabric `{name}` is made of itself");
@@ -62,7 +62,7 @@ struct Sheet {
 }
 
 /// The plies of a fabric that is made of others.
-fn plies(table: &Spanned<Free>) -> Checked<Vec<RawPly>> {
+fn plies(table: &Spanned<FreeTable>) -> Checked<Vec<RawPly>> {
     let Some(value) = find(table.get_ref(), "plies") else { return Ok(Vec::new()) };
     let read: Result<Vec<Sheet>, toml::de::Error> = value.get_ref().clone().try_into();
     let sheets = read.or_else(|error| {
@@ -77,7 +77,7 @@ fn plies(table: &Spanned<Free>) -> Checked<Vec<RawPly>> {
     Ok(sheets.into_iter().map(placed).collect())
 }
 
-fn fabric(table: &Spanned<Free>, plies: &[RawPly], made: &Fabrics) -> Checked<Arc<dyn Fabric>> {
+fn fabric(table: &Spanned<FreeTable>, plies: &[RawPly], made: &Fabrics) -> Checked<Arc<dyn Fabric>> {
     let (law, mut recipe) = law(table)?;
     for ply in plies {
         let angle_rad = optional("angle_deg", &ply.angle_deg, &ANGLE)?.unwrap_or(0.0);
@@ -101,7 +101,7 @@ fn fabric(table: &Spanned<Free>, plies: &[RawPly], made: &Fabrics) -> Checked<Ar
 }
 
 /// The law, and the recipe to start from: empty, or the recipe of a known material.
-fn law(table: &Spanned<Free>) -> Checked<(&'static Law, Recipe)> {
+fn law(table: &Spanned<FreeTable>) -> Checked<(&'static Law, Recipe)> {
     let laws: Vec<&str> = FABRICS.iter().map(|l| l.name).collect();
     let materials: Vec<&str> = MATERIALS.iter().map(|m| m.name).collect();
     match (find(table.get_ref(), "law"), find(table.get_ref(), "material")) {

@@ -1,8 +1,8 @@
 //! Chambers, supports, rigid bodies, forces, gravity, obstacles and contact of a case.
 
 use super::range::{
-    ATMOSPHERE, Checked, GAP, GAUGE, LENGTH, POSITION, Range, Rows, TIME, Text, amplitude, amplitudes, at_once, choice,
-    direction, optional, plain, refuse, si, unknown_name, vector,
+    ATMOSPHERE, Checked, GAP, GAUGE, LENGTH, POSITION, Range, TIME, Text, TimeRows, amplitude, amplitudes, at_once,
+    choice, direction, optional, plain, refuse, si, unknown_name, vector,
 };
 use super::raw::{RawCase, RawChamber, RawForce, RawObstacle, RawSupport};
 use crate::mesh::Mesh;
@@ -10,10 +10,9 @@ use crate::problem::{
     Amplitude, Chamber, Contact, Gas, Gravity, NodalForce, Obstacle, ObstacleShape, Pressure, Rigid, Support,
 };
 use std::collections::BTreeSet;
-use std::ops::Range as Place;
 use toml::Spanned;
 
-type Span = Place<usize>;
+type TextSpan = std::ops::Range<usize>;
 /// Pressure over time of the paper's body: up within 0.1 s, then held.
 const BODY: [f64; 2] = [0.0, 0.1];
 /// Pressure over time of the paper's actuators: up from 0.1 s to 1.1 s.
@@ -73,7 +72,7 @@ fn pressure(table: &Spanned<RawChamber>) -> Checked<Pressure> {
     let Some(at) = &raw.sealed_at_s else {
         // The room's pressure also bounds a vacuum.
         let atmosphere = span(&raw.atmosphere_kpa).filter(|_| lowest(&filling) >= Some(0.0));
-        let keys: [(&str, Option<Span>); 7] = [
+        let keys: [(&str, Option<TextSpan>); 7] = [
             ("atmosphere_kPa", atmosphere),
             ("dead_volume_cm3", span(&raw.dead_volume_cm3)),
             ("polytropic_exponent", span(&raw.polytropic_exponent)),
@@ -105,7 +104,7 @@ fn pressure(table: &Spanned<RawChamber>) -> Checked<Pressure> {
     })
 }
 
-fn span<T>(value: &Option<Spanned<T>>) -> Option<Span> {
+fn span<T>(value: &Option<Spanned<T>>) -> Option<TextSpan> {
     value.as_ref().map(Spanned::span)
 }
 
@@ -213,7 +212,7 @@ fn with_next_row(mesh: &Mesh, nodes: &[u32]) -> Vec<u32> {
 }
 
 /// Rows of time and displacement along x, y, z, as smooth steps or straight lines.
-fn motion(smooth: &Rows<4>, linear: &Rows<4>) -> Checked<Option<[Amplitude; 3]>> {
+fn motion(smooth: &TimeRows<4>, linear: &TimeRows<4>) -> Checked<Option<[Amplitude; 3]>> {
     Ok(amplitudes(smooth, linear, &POSITION)?.and_then(|axes| axes.try_into().ok()))
 }
 

@@ -1,7 +1,7 @@
 //! `[mesh]`: a generator with its parameters, or a mesh file.
 
 use super::range::{
-    Checked, Free, LENGTH, Range, Text, at_once, choice, find, number, plain, plain_number, refuse, unknown_name,
+    Checked, FreeTable, LENGTH, Range, Text, at_once, choice, find, number, plain, plain_number, refuse, unknown_name,
 };
 use crate::mesh::Part;
 use crate::mesh::check::{check_open, near, rim};
@@ -145,7 +145,7 @@ pub const GENERATORS: &[MeshGenerator] = &[
     },
 ];
 
-pub(super) fn mesh(table: &Spanned<Free>, read_mesh: ReadMesh) -> Checked<MeshFile> {
+pub(super) fn mesh(table: &Spanned<FreeTable>, read_mesh: ReadMesh) -> Checked<MeshFile> {
     match (entry(table, "generator")?, entry(table, "file")?) {
         (Some(_), Some(file)) => at_once("a generator and a file", file.span()),
         (None, Some(file)) => from_file(table, &file, read_mesh),
@@ -162,7 +162,7 @@ pub(super) fn mesh(table: &Spanned<Free>, read_mesh: ReadMesh) -> Checked<MeshFi
 const CORRECT: &str = "\ncorrect the mesh: its file, or the values of its generator";
 
 /// Refuses a mesh that cannot be simulated: bad elements, chambers that leak.
-pub(super) fn check(table: &Spanned<Free>, mesh: &Mesh, chambers: &[Chamber]) -> Checked<()> {
+pub(super) fn check(table: &Spanned<FreeTable>, mesh: &Mesh, chambers: &[Chamber]) -> Checked<()> {
     let names: Vec<&str> = chambers.iter().map(|c| c.name.as_str()).collect();
     match check_open(mesh, &names, &open_at(mesh, chambers)) {
         Err(FemError::Mesh(message)) => {
@@ -204,7 +204,7 @@ fn open_axis<'a>(mesh: &Mesh, chambers: &[&'a str]) -> Option<(&'a str, &'static
 }
 
 /// A text of the table, if it is there.
-fn entry(table: &Spanned<Free>, key: &str) -> Checked<Option<Text>> {
+fn entry(table: &Spanned<FreeTable>, key: &str) -> Checked<Option<Text>> {
     let Some(value) = find(table.get_ref(), key) else { return Ok(None) };
     match value.get_ref() {
         Value::String(text) => Ok(Some(Spanned::new(value.span(), text.clone()))),
@@ -212,7 +212,7 @@ fn entry(table: &Spanned<Free>, key: &str) -> Checked<Option<Text>> {
     }
 }
 
-fn from_file(table: &Spanned<Free>, file: &Text, read_mesh: ReadMesh) -> Checked<MeshFile> {
+fn from_file(table: &Spanned<FreeTable>, file: &Text, read_mesh: ReadMesh) -> Checked<MeshFile> {
     if let Some((key, _)) = table.get_ref().iter().find(|(key, _)| !["file", "unit"].contains(&key.get_ref().as_str()))
     {
         return Err(unknown_name("key of a mesh from a file", key, &["file", "unit"]));
@@ -287,7 +287,7 @@ fn median_side_m(mesh: &Mesh) -> f64 {
     sides.get(sides.len() / 2).copied().unwrap_or(0.0)
 }
 
-fn generated(table: &Spanned<Free>, name: &Text) -> Checked<Mesh> {
+fn generated(table: &Spanned<FreeTable>, name: &Text) -> Checked<Mesh> {
     let names: Vec<&str> = GENERATORS.iter().map(|g| g.name).collect();
     let Some(generator) = GENERATORS.iter().find(|g| g.name == name.get_ref()) else {
         return Err(unknown_name("generator", name, &names));
@@ -304,7 +304,7 @@ fn generated(table: &Spanned<Free>, name: &Text) -> Checked<Mesh> {
     })
 }
 
-fn value(table: &Spanned<Free>, key: &GeneratorKey) -> Checked<f64> {
+fn value(table: &Spanned<FreeTable>, key: &GeneratorKey) -> Checked<f64> {
     let (v, span) = match (find(table.get_ref(), key.key), key.default) {
         (Some(value), _) => (typed(key, value)?, value.span()),
         (None, Some(default)) => (default, table.span()),

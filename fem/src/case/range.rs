@@ -13,9 +13,9 @@ pub(crate) type Checked<T> = Result<T>;
 pub(crate) type Num = Spanned<f64>;
 pub(crate) type Text = Spanned<String>;
 /// Rows of time \[s\] and values, if they are there.
-pub(crate) type Rows<const N: usize> = Option<Spanned<Vec<Exactly<N>>>>;
+pub(crate) type TimeRows<const N: usize> = Option<Spanned<Vec<Exactly<N>>>>;
 /// A table whose keys depend on one of its values: a mesh generator, a fabric law.
-pub(crate) type Free = BTreeMap<Text, Spanned<Value>>;
+pub(crate) type FreeTable = BTreeMap<Text, Spanned<Value>>;
 
 pub(crate) const LENGTH: Range = Range::LENGTH;
 pub(crate) const THICKNESS: Range = Range {
@@ -95,14 +95,14 @@ pub(crate) fn direction(key: &str, value: &Spanned<Exactly<3>>) -> Checked<V3> {
 }
 
 /// The amplitude that is given, if any; never two at once.
-pub(crate) fn amplitude(smooth: &Rows<2>, linear: &Rows<2>, range: &Range) -> Checked<Option<Amplitude>> {
+pub(crate) fn amplitude(smooth: &TimeRows<2>, linear: &TimeRows<2>, range: &Range) -> Checked<Option<Amplitude>> {
     Ok(amplitudes(smooth, linear, range)?.and_then(|mut one| one.pop()))
 }
 
 /// The same, one for every column behind the times.
 pub(crate) fn amplitudes<const N: usize>(
-    smooth: &Rows<N>,
-    linear: &Rows<N>,
+    smooth: &TimeRows<N>,
+    linear: &TimeRows<N>,
     range: &Range,
 ) -> Checked<Option<Vec<Amplitude>>> {
     let (rows, kind): (_, fn(_) -> Amplitude) = match (smooth, linear) {
@@ -188,7 +188,7 @@ fn kind(value: &Value) -> &'static str {
 }
 
 /// Value of a key that has a word or a list, if it is there.
-pub(crate) fn find<'a>(table: &'a Free, wanted: &str) -> Option<&'a Spanned<Value>> {
+pub(crate) fn find<'a>(table: &'a FreeTable, wanted: &str) -> Option<&'a Spanned<Value>> {
     table.iter().find(|(key, _)| key.get_ref() == wanted).map(|(_, value)| value)
 }
 

@@ -1,6 +1,6 @@
 //! The TOML text as written: keys with units, every value with its place.
 
-use super::range::{Checked, Free, Num, Rows, Text, unknown};
+use super::range::{Checked, FreeTable, Num, Text, TimeRows, unknown};
 use crate::FemError;
 use serde::Deserialize;
 use spelling::Exactly;
@@ -15,9 +15,9 @@ pub(super) struct RawCase {
     pub name: String,
     #[serde(default, rename = "notes")]
     pub _notes: String,
-    pub mesh: Spanned<Free>,
+    pub mesh: Spanned<FreeTable>,
     #[serde(default)]
-    pub fabric: BTreeMap<Text, Spanned<Free>>,
+    pub fabric: BTreeMap<Text, Spanned<FreeTable>>,
     #[serde(default)]
     pub part: BTreeMap<Text, Spanned<RawPart>>,
     #[serde(default)]
@@ -33,7 +33,7 @@ pub(super) struct RawCase {
     pub obstacle: Vec<Spanned<RawObstacle>>,
     pub contact: Option<RawContact>,
     #[serde(default)]
-    pub settings: Free,
+    pub settings: FreeTable,
     #[serde(default)]
     pub output: RawOutput,
 }
@@ -65,9 +65,9 @@ pub(super) struct RawChamber {
     pub pressure_kpa: Option<Num>,
     pub preset: Option<Text>,
     #[serde(rename = "smooth_s_kPa", alias = "smooth_s_kpa")]
-    pub(crate) smooth_s_kpa: Rows<2>,
+    pub(crate) smooth_s_kpa: TimeRows<2>,
     #[serde(rename = "linear_s_kPa", alias = "linear_s_kpa")]
-    pub(crate) linear_s_kpa: Rows<2>,
+    pub(crate) linear_s_kpa: TimeRows<2>,
     pub sealed_at_s: Option<Num>,
     #[serde(rename = "atmosphere_kPa", alias = "atmosphere_kpa")]
     pub(crate) atmosphere_kpa: Option<Num>,
@@ -76,8 +76,8 @@ pub(super) struct RawChamber {
     #[serde(rename = "leak_l_min_kPa", alias = "leak_l_min_kpa")]
     pub(crate) leak_l_min_kpa: Option<Num>,
     pub inflow_l_min: Option<Num>,
-    pub(crate) inflow_smooth_s_l_min: Rows<2>,
-    pub(crate) inflow_linear_s_l_min: Rows<2>,
+    pub(crate) inflow_smooth_s_l_min: TimeRows<2>,
+    pub(crate) inflow_linear_s_l_min: TimeRows<2>,
     pub open_axis: Option<Text>,
     pub parts: Option<Spanned<Vec<Text>>>,
 }
@@ -88,8 +88,8 @@ pub(super) struct RawSupport {
     pub set: Text,
     pub axes: Option<Text>,
     pub encastre: Option<bool>,
-    pub smooth_s_mm: Rows<4>,
-    pub(crate) linear_s_mm: Rows<4>,
+    pub smooth_s_mm: TimeRows<4>,
+    pub(crate) linear_s_mm: TimeRows<4>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -103,16 +103,16 @@ pub(super) struct RawRigid {
 pub(super) struct RawForce {
     pub set: Text,
     pub total_n: Spanned<Exactly<3>>,
-    pub(crate) smooth_s: Rows<2>,
-    pub(crate) linear_s: Rows<2>,
+    pub(crate) smooth_s: TimeRows<2>,
+    pub(crate) linear_s: TimeRows<2>,
 }
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawGravity {
     pub g_m_s2: Spanned<Exactly<3>>,
-    pub(crate) smooth_s: Rows<2>,
-    pub(crate) linear_s: Rows<2>,
+    pub(crate) smooth_s: TimeRows<2>,
+    pub(crate) linear_s: TimeRows<2>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -124,8 +124,8 @@ pub(super) struct RawObstacle {
     pub axis: Option<Spanned<Exactly<3>>>,
     pub radius_mm: Option<Num>,
     pub friction: Option<Num>,
-    pub smooth_s_mm: Rows<4>,
-    pub(crate) linear_s_mm: Rows<4>,
+    pub smooth_s_mm: TimeRows<4>,
+    pub(crate) linear_s_mm: TimeRows<4>,
 }
 
 #[derive(Debug, Deserialize)]

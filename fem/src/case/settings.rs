@@ -2,7 +2,7 @@
 
 use super::load::{part_names, set_name};
 use super::range::{
-    Checked, Free, POSITION, Range, at_once, choice, direction, find, number, plain, refuse, si, switch, text,
+    Checked, FreeTable, POSITION, Range, at_once, choice, direction, find, number, plain, refuse, si, switch, text,
     unknown_name,
 };
 use super::range::{DeclaredKey, key, named};
@@ -58,7 +58,7 @@ fn quasi_static() -> Settings {
 }
 
 /// Settings of a run; missing keys come from the preset, or from [`Settings::default`].
-pub(super) fn settings(table: &Free) -> Checked<Settings> {
+pub(super) fn settings(table: &FreeTable) -> Checked<Settings> {
     type Preset = fn() -> Settings;
     let presets: [(&str, Preset); 2] = [("paper", paper), ("quasi-static", quasi_static)];
     let mut settings = match find(table, "preset") {

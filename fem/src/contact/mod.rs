@@ -134,7 +134,7 @@ impl LayerContact {
 }
 
 /// What contact cannot find again from positions, after the number of elements.
-type Saved = (usize, Searched, ContactEnergies, Vec<[f64; 4]>, Passed, Vec<Chunk>);
+type SavedContact = (usize, Searched, ContactEnergies, Vec<[f64; 4]>, Passed, Vec<Chunk>);
 
 impl Term for LayerContact {
     fn line(&self) -> LedgerLine {
@@ -238,7 +238,7 @@ impl Transient for LayerContact {
     }
 
     fn restore(&mut self, saved: &[u8]) -> Option<()> {
-        let (elements, searched, sums, before_m, passed, chunks): Saved = unpack(saved)?;
+        let (elements, searched, sums, before_m, passed, chunks): SavedContact = unpack(saved)?;
         let nodes = self.searched.placed_m.len();
         let fits = elements == self.surface.elements.len()
             && searched.placed_m.len() == nodes

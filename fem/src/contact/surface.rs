@@ -56,7 +56,7 @@ impl PackedLists {
 }
 
 /// Layer, then the lower and the higher node number.
-type Edge = (u32, u32, u32);
+type LayerEdge = (u32, u32, u32);
 
 impl ContactSurface {
     pub(super) fn new(mesh: &Mesh, parts: &[String]) -> Result<ContactSurface> {
@@ -107,7 +107,7 @@ impl ContactSurface {
 
     /// Finds the element across each edge; the fronts of neighbours in one layer must be on the same side.
     fn border(&mut self, mesh: &Mesh) -> Result<()> {
-        let mut open: HashMap<Edge, Vec<(u32, u8, bool)>> = HashMap::new();
+        let mut open: HashMap<LayerEdge, Vec<(u32, u8, bool)>> = HashMap::new();
         for e in 0..self.elements.len() {
             let nodes = self.corners(e);
             for k in 0..nodes.len() {

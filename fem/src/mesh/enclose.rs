@@ -93,10 +93,10 @@ fn outward(mesh: &Mesh, faces: &[Face], open: [bool; 3]) -> Vec<bool> {
 }
 
 /// Faces by the edges that they have, and whether they run along them to the higher node.
-type Edges = BTreeMap<(u32, u32), Vec<(usize, bool)>>;
+type FacesByEdge = BTreeMap<(u32, u32), Vec<(usize, bool)>>;
 
-fn edges(mesh: &Mesh, faces: &[Face]) -> Edges {
-    let mut edges = Edges::new();
+fn edges(mesh: &Mesh, faces: &[Face]) -> FacesByEdge {
+    let mut edges = FacesByEdge::new();
     for (face, (part, i)) in faces.iter().enumerate() {
         let nodes = mesh.parts[*part].nodes(*i);
         for k in 0..nodes.len() {
@@ -108,7 +108,7 @@ fn edges(mesh: &Mesh, faces: &[Face]) -> Edges {
 }
 
 /// Faces that meet two by two.
-fn neighbours(edges: &Edges) -> Neighbours {
+fn neighbours(edges: &FacesByEdge) -> Neighbours {
     let mut neighbours = Neighbours::new();
     for meeting in edges.values() {
         if let [(a, up), (b, other)] = meeting[..] {
@@ -120,7 +120,7 @@ fn neighbours(edges: &Edges) -> Neighbours {
 }
 
 /// Where the faces end along the axes along which the chamber is open: planes with open edges that nothing is beyond.
-fn ends(mesh: &Mesh, edges: &Edges, open: [bool; 3]) -> [Vec<f64>; 3] {
+fn ends(mesh: &Mesh, edges: &FacesByEdge, open: [bool; 3]) -> [Vec<f64>; 3] {
     let rim: Vec<[u32; 2]> = edges.iter().filter(|(_, faces)| faces.len() == 1).map(|((a, b), _)| [*a, *b]).collect();
     let near = near(mesh, &rim);
     let beyond = |k: usize, at: f64, sign: f64| {

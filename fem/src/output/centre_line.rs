@@ -39,7 +39,7 @@ const ON_STATION: f64 = 1e-9;
 #[derive(Debug, Clone, PartialEq)]
 pub struct CentreLine {
     stations_m: Vec<f64>,
-    weights: Vec<Weights>,
+    weights: Vec<NodeWeights>,
     nodes: usize,
     start_m: Vec<V3>,
 }
@@ -73,7 +73,7 @@ impl CentreLine {
     fn made(
         mesh: &Mesh,
         stations_m: &[f64],
-        of: impl Fn(f64) -> Option<Weights>,
+        of: impl Fn(f64) -> Option<NodeWeights>,
         missing: impl Fn(f64) -> String,
     ) -> Result<CentreLine> {
         let weights = stations_m.iter().map(|s| of(*s).ok_or_else(|| FemError::Problem(missing(s * 1e3))));
@@ -97,7 +97,7 @@ impl CentreLine {
         if positions.len() != self.nodes {
             return Err(FemError::Problem("centre line: these positions belong to another mesh".into()));
         }
-        let centroid = |weights: &Weights| {
+        let centroid = |weights: &NodeWeights| {
             let mut sum = [0.0; 3];
             for &(node, weight) in weights {
                 for k in 0..3 {
@@ -157,10 +157,10 @@ fn choose<'a>(mesh: &'a Mesh, names: &[String]) -> Result<Vec<&'a Part>> {
 }
 
 /// Nodes, and the weight of each.
-type Weights = Vec<(u32, f64)>;
+type NodeWeights = Vec<(u32, f64)>;
 
 /// Where a plane meets an edge: its nodes, and the share of the way from the first to the second.
-type Cut = (u32, u32, f64);
+type EdgeCrossing = (u32, u32, f64);
 
 /// Parts to be cut, and every node's place along the axis.
 struct Sections<'a> {
@@ -191,7 +191,7 @@ impl<'a> Sections<'a> {
     }
 
     /// Segments of the section at `station`, one for every element cut; ends as edge and place on it.
-    fn cuts(&self, station: f64) -> Vec<[Cut; 2]> {
+    fn cuts(&self, station: f64) -> Vec<[EdgeCrossing; 2]> {
         let [low, high] = self.range;
         let near = ON_STATION * (high - low);
         let beyond = |node: u32| {
@@ -217,7 +217,7 @@ impl<'a> Sections<'a> {
     }
 
     /// Weights of the section at `station`; `None` outside the mesh.
-    fn weights(&self, station: f64) -> Option<Weights> {
+    fn weights(&self, station: f64) -> Option<NodeWeights> {
         let mut sums: BTreeMap<u32, f64> = BTreeMap::new();
         let mut total = 0.0;
         for segment in self.cuts(station) {
@@ -232,7 +232,7 @@ impl<'a> Sections<'a> {
     }
 
     /// Weights of the point of the section at `station` that faces `eye`, where `side` (across both) changes sign.
-    fn facing(&self, station: f64, eye: V3, side: V3) -> Option<Weights> {
+    fn facing(&self, station: f64, eye: V3, side: V3) -> Option<NodeWeights> {
         for segment in self.cuts(station) {
             let [a, b] = segment.map(|cut| self.point(cut));
             let (sa, sb) = (dot(a, side), dot(b, side));
@@ -253,12 +253,12 @@ impl<'a> Sections<'a> {
         None
     }
 
-    fn point(&self, (i, j, t): Cut) -> V3 {
+    fn point(&self, (i, j, t): EdgeCrossing) -> V3 {
         let (p, q) = (self.mesh.points[i as usize], self.mesh.points[j as usize]);
         along(p, t, sub(q, p))
     }
 
-    fn distance(&self, a: Cut, b: Cut) -> f64 {
+    fn distance(&self, a: EdgeCrossing, b: EdgeCrossing) -> f64 {
         norm(sub(self.point(a), self.point(b)))
     }
 }

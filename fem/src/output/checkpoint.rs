@@ -41,10 +41,10 @@ pub(crate) fn write_checkpoint(folder: &Path, checkpoint: &Checkpoint) -> Result
 }
 
 /// A checkpoint; with a notice for the user if the newest one was damaged, and this is the one before it.
-type Loaded = (Checkpoint, Option<String>);
+type LoadedCheckpoint = (Checkpoint, Option<String>);
 
 /// Reads the newest good checkpoint of the problem with this `fingerprint`; `None` if the folder has none.
-pub(crate) fn read_checkpoint(folder: &Path, fingerprint: u64) -> Result<Option<Loaded>> {
+pub(crate) fn read_checkpoint(folder: &Path, fingerprint: u64) -> Result<Option<LoadedCheckpoint>> {
     let (newest, previous) = names(folder);
     let fault = match read_file(&newest, fingerprint)? {
         FoundCheckpoint::Good(checkpoint) => return Ok(Some((checkpoint, None))),

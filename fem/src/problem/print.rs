@@ -6,19 +6,19 @@ use super::{Amplitude, Pressure, Problem};
 use crate::problem::Guards;
 
 /// Loads at one moment by what they are, with their unit; a pressure is the first of the three numbers.
-pub type Loads = BTreeMap<String, [f64; 3]>;
+pub type PrintedLoads = BTreeMap<String, [f64; 3]>;
 
-/// Name of a chamber's pressure in [`Loads`].
+/// Name of a chamber's pressure in [`PrintedLoads`].
 pub fn pressure_of(chamber: &str) -> String {
     format!("pressure of chamber `{chamber}` [Pa]")
 }
-/// Name of the force on a node set in [`Loads`].
+/// Name of the force on a node set in [`PrintedLoads`].
 pub fn force_on(set: &str) -> String {
     format!("force on `{set}` [N]")
 }
-/// Name by which [`Loads`] addresses the acceleration of gravity.
+/// Name by which [`PrintedLoads`] addresses the acceleration of gravity.
 pub const GRAVITY: &str = "gravity [m/s²]";
-/// Name of the motion of an obstacle, from 0, in [`Loads`].
+/// Name of the motion of an obstacle, from 0, in [`PrintedLoads`].
 pub fn motion_of(obstacle: usize) -> String {
     format!("motion of obstacle {} [m]", obstacle + 1)
 }
@@ -73,8 +73,8 @@ impl Problem {
     }
 
     /// All loads at a time \[s\] that the problem sets; a sealed chamber's pressure follows its volume and is none of them.
-    pub(crate) fn loads_at(&self, time_s: f64) -> Loads {
-        let mut loads = Loads::new();
+    pub(crate) fn loads_at(&self, time_s: f64) -> PrintedLoads {
+        let mut loads = PrintedLoads::new();
         for chamber in &self.chambers {
             let set = match &chamber.pressure {
                 Pressure::Set(amplitude) => amplitude,

@@ -7,7 +7,7 @@
 use models::{CHANNELS, Scenario};
 
 use super::{Preset, RobotSettings, problem, sew};
-use crate::problem::{Amplitude, GRAVITY, Loads, Obstacle, Pressure, force_on, motion_of, pressure_of};
+use crate::problem::{Amplitude, GRAVITY, Obstacle, Pressure, PrintedLoads, force_on, motion_of, pressure_of};
 use crate::{FemError, Problem, Result};
 
 /// Shortest way between two pressures, as a share of the ramp: a robot that is stopped faster swings past its place, and stays
@@ -161,7 +161,7 @@ pub struct RobotStart {
 
 impl RobotStart {
     /// Of loads at a time \[s\].
-    pub fn of(scenario: &Scenario, time_s: f64, loads: &Loads) -> RobotStart {
+    pub fn of(scenario: &Scenario, time_s: f64, loads: &PrintedLoads) -> RobotStart {
         let of = |name: String| loads.get(&name).copied().unwrap_or_default();
         let mut pressures_pa = [0.0; CHANNELS];
         for (i, strip) in scenario.strips().enumerate() {

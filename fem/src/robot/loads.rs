@@ -5,7 +5,7 @@
 //! order ([`Amplitude::Smooth`]).
 
 use super::loading::{Load, RobotRun};
-use crate::case::range::{Checked, Free, POSITION, Range, find, number, plain, plain_number, refuse};
+use crate::case::range::{Checked, FreeTable, POSITION, Range, find, number, plain, plain_number, refuse};
 use crate::problem::{Amplitude, Gravity, NodalForce};
 use crate::vec3::V3;
 use crate::{FemError, Problem, Result};
@@ -58,7 +58,7 @@ pub(super) fn read(run: &mut RobotRun, name: &str, value: &Spanned<Value>) -> Ch
 }
 
 /// Refuses lists whose length differs from the pressures', and a step in which nothing changes.
-pub(super) fn check(run: &RobotRun, table: &Free) -> Checked<()> {
+pub(super) fn check(run: &RobotRun, table: &FreeTable) -> Checked<()> {
     let span = |name: &str| find(table, name).map_or(0..0, Spanned::span);
     let of = |load: &Load| if let Load::AtPressures(list) = load { list.clone() } else { Vec::new() };
     let lists = [of(&run.tip_force_n), of(&run.gravity_m_s2), run.obstacle_moves_m.clone()];

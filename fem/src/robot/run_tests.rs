@@ -281,7 +281,7 @@ fn a_run_that_goes_on_begins_with_the_loads_of_the_end_before() {
     second.start = Some(RobotStart::of(&scenario, end_s, &loads));
     let problem = second.problem(&scenario).unwrap();
     let (begin, end) = (problem.loads_at(end_s), problem.loads_at(second.holds()[1].time_s));
-    let of = |loads: &crate::problem::Loads, what: &str| loads.get(what).copied().unwrap_or_default();
+    let of = |loads: &crate::problem::PrintedLoads, what: &str| loads.get(what).copied().unwrap_or_default();
     for what in loads.keys() {
         let (before, now) = (of(&loads, what), of(&begin, what));
         assert!(

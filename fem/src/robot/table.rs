@@ -21,8 +21,8 @@ use super::loads::{self, PRESSURES, numbers, triple};
 use super::{Preset, RobotRun, RobotSettings};
 use crate::case::range::named;
 use crate::case::range::{
-    Checked, Free, LENGTH, POSITION, PRESSURE, Range, choice, find, number, plain, plain_number, refuse, switch, text,
-    unknown_name,
+    Checked, FreeTable, LENGTH, POSITION, PRESSURE, Range, choice, find, number, plain, plain_number, refuse, switch,
+    text, unknown_name,
 };
 use crate::problem::{Obstacle, ObstacleShape};
 use crate::{FemError, Result};
@@ -35,7 +35,7 @@ const HOLD: f64 = 0.03;
 
 #[derive(Deserialize)]
 struct File {
-    fem: Option<Spanned<Free>>,
+    fem: Option<Spanned<FreeTable>>,
 }
 
 impl RobotRun {
@@ -46,7 +46,7 @@ impl RobotRun {
     pub fn parse(text: &str, scenario: &Scenario) -> Result<RobotRun> {
         let file: File = toml::from_str(text)
             .map_err(|error| FemError::Case { message: format!("{}\n", error.message()), span: error.span() })?;
-        let empty = Free::new();
+        let empty = FreeTable::new();
         let table = file.fem.as_ref().map_or(&empty, |table| table.get_ref());
         let model = find(table, "model").map_or(Ok(Preset::default()), |value| word("model", value, &Preset::ALL))?;
         let mut run = RobotRun {
@@ -161,7 +161,7 @@ fn meshes(value: &Spanned<Value>) -> Checked<Vec<[f64; 2]>> {
 }
 
 /// Every strip is flat without pressure or above the body's, and one of them is above.
-fn above_body(run: &RobotRun, scenario: &Scenario, table: &Free) -> Checked<()> {
+fn above_body(run: &RobotRun, scenario: &Scenario, table: &FreeTable) -> Checked<()> {
     let body_pa = scenario.p_body_pa;
     let low = |channels: &[f64; CHANNELS]| {
         let of_strips = || scenario.strips().map(|strip| channels[strip.channel]);

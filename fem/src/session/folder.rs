@@ -244,7 +244,7 @@ fn take(folder: &Path, target: &Path, interrupted: Option<RunIdentity>) -> Resul
     Ok(Workplace { folder: folder.to_path_buf(), interrupted, target, _lock: lock })
 }
 
-type Step<'a> = &'a dyn Fn() -> Result<()>;
+type FolderStep<'a> = &'a dyn Fn() -> Result<()>;
 
 impl Workplace {
     /// Clears away an earlier run and marks the folder as a run in progress. Killed at any point, the folder is known as
@@ -253,7 +253,7 @@ impl Workplace {
         self.begin(marker, text, &mut |step| step())
     }
 
-    fn begin(&self, marker: &RunIdentity, text: &str, take: &mut dyn FnMut(Step) -> Result<()>) -> Result<()> {
+    fn begin(&self, marker: &RunIdentity, text: &str, take: &mut dyn FnMut(FolderStep) -> Result<()>) -> Result<()> {
         if let (Some(case_sha256), false) = (case_sha256(&self.folder), self.folder.join(MARKER).exists()) {
             take(&|| self.mark(&RunIdentity { case_sha256: case_sha256.clone(), ..marker.clone() }))?;
         }

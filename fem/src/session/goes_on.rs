@@ -8,7 +8,7 @@ use super::stepping::{self, Running};
 use super::{FeRun, Loaded, RunSettings, sha256};
 use crate::bytes::{pack, unpack};
 use crate::output::checkpoint::{Checkpoint, read_end, write_checkpoint, write_end};
-use crate::problem::{Loads, pressure_of};
+use crate::problem::{PrintedLoads, pressure_of};
 use crate::{FemError, Result, Simulation};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -21,7 +21,7 @@ const JUMP: f64 = 1e-3;
 pub(super) struct EndCheckpoint {
     /// Of the problem, whatever its length.
     fingerprint: u64,
-    pub loads: Loads,
+    pub loads: PrintedLoads,
     session: Vec<u8>,
 }
 
@@ -105,11 +105,11 @@ impl Earlier {
     }
 
     /// Warnings for loads that differ from the end before.
-    fn jumps(&self, now: &Loads) -> Vec<String> {
+    fn jumps(&self, now: &PrintedLoads) -> Vec<String> {
         let jump = |what: &String| {
             // A sealed chamber keeps its gas.
             let value =
-                |loads: &Loads| loads.get(what).copied().or((!what.starts_with("pressure")).then_some([0.0; 3]));
+                |loads: &PrintedLoads| loads.get(what).copied().or((!what.starts_with("pressure")).then_some([0.0; 3]));
             let (before, after) = (value(&self.end.loads)?, value(now)?);
             let jumps = |k: &usize| (before[*k] - after[*k]).abs() > JUMP * before[*k].abs().max(after[*k].abs());
             let k = (0..3).find(jumps)?;

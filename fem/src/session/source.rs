@@ -3,7 +3,7 @@
 use super::watch::WatchedRobot;
 use crate::case::{Case, Outputs, is_case};
 use crate::error::TextFault;
-use crate::problem::Loads;
+use crate::problem::PrintedLoads;
 use crate::robot::{RobotRun, RobotStart, outputs, with_fem};
 use crate::{FemError, Result};
 use models::{Scenario, ScenarioError};
@@ -100,7 +100,7 @@ impl Source {
     }
 
     /// The same; a robot's loads go on from those at a time \[s\] of an earlier run.
-    pub(super) fn load_after(&self, earlier: Option<(f64, &Loads)>) -> Result<Loaded> {
+    pub(super) fn load_after(&self, earlier: Option<(f64, &PrintedLoads)>) -> Result<Loaded> {
         let mut read_mesh = |path: &Path| crate::mesh::file::read(&self.folder.join(path));
         let made = match self.is_robot() {
             true => self.robot(earlier).map(|(case, robot)| (case, Some(robot))),
@@ -110,7 +110,7 @@ impl Source {
         Ok(Loaded { source: self.clone(), case, robot })
     }
 
-    fn robot(&self, earlier: Option<(f64, &Loads)>) -> Result<(Case, WatchedRobot)> {
+    fn robot(&self, earlier: Option<(f64, &PrintedLoads)>) -> Result<(Case, WatchedRobot)> {
         let scenario = self.scenario()?;
         let mut run = RobotRun::parse(&self.text, &scenario)?;
         run.start = earlier.map(|(time_s, loads)| RobotStart::of(&scenario, time_s, loads));

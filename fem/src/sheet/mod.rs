@@ -263,7 +263,7 @@ impl Transient for Sheet {
     }
 
     fn restore(&mut self, saved: &[u8]) -> Option<()> {
-        let (viscous_j, air, patches): Saved = unpack(saved)?;
+        let (viscous_j, air, patches): SavedSheet = unpack(saved)?;
         let alike = |(own, (_, strains, past)): (&Patch, &SavedPatch)| {
             [own.strains.len(), own.past.len()] == [strains.len(), past.len()]
         };
@@ -282,7 +282,7 @@ impl Transient for Sheet {
 }
 
 /// Heat of viscosity, chambers and patches in a checkpoint.
-type Saved = (f64, Vec<AirNow>, Vec<SavedPatch>);
+type SavedSheet = (f64, Vec<AirNow>, Vec<SavedPatch>);
 type SavedPatch = (patch::Sums, Vec<kernel::Strain>, Vec<[Past; group::LANES]>);
 
 fn fabric_of(section: &Section) -> Result<Arc<dyn Fabric>> {

@@ -194,7 +194,7 @@ impl Transient for Obstacles {
         pack(&(self.solids_as_text(), [self.stored_j, self.work_j], self.lost_j, &self.before_m, &self.grips, paths))
     }
     fn restore(&mut self, saved: &[u8]) -> Option<()> {
-        let (solids, [stored_j, work_j], lost_j, before_m, grips, paths): Saved = unpack(saved)?;
+        let (solids, [stored_j, work_j], lost_j, before_m, grips, paths): SavedObstacles = unpack(saved)?;
         let lengths = |grips: &[Vec<Grip>]| grips.iter().map(Vec::len).collect::<Vec<_>>();
         let fits = before_m.is_empty() || before_m.len() == self.stiffness_n_m.len();
         let known = solids == self.solids_as_text() && lengths(&grips) == lengths(&self.grips);
@@ -209,7 +209,7 @@ impl Transient for Obstacles {
 }
 
 /// Solids, energy stored and work, energies lost, positions before, memory of the nodes, ways.
-type Saved = (String, [f64; 2], [f64; 2], Vec<[f64; 4]>, Vec<Vec<Grip>>, Vec<[V3; 3]>);
+type SavedObstacles = (String, [f64; 2], [f64; 2], Vec<[f64; 4]>, Vec<Vec<Grip>>, Vec<[V3; 3]>);
 
 impl Solid {
     /// One step: force, energy stored and lost by friction and by damping; the memory is updated. Damping has what the normal

@@ -236,10 +236,10 @@ impl LawParameter {
     }
 }
 
-type Column = (Text, f64);
+type CurveColumn = (Text, f64);
 
 /// Columns of a table, each a unit with its factor to SI.
-pub(super) const fn table(key: Text, (x_unit, x_si): Column, (y_unit, y_si): Column) -> CurveInput {
+pub(super) const fn table(key: Text, (x_unit, x_si): CurveColumn, (y_unit, y_si): CurveColumn) -> CurveInput {
     CurveInput { key, x_unit, x_si, y_unit, y_si, meaning: "" }
 }
 

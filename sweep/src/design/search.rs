@@ -3,7 +3,7 @@
 use super::misses::{Miss, parts, worst_m};
 use super::wish::Wish;
 use crate::SweepError;
-use crate::axis::{Axis, Changes, as_number, channel};
+use crate::axis::{Axis, CaseChanges, as_number, channel};
 use crate::pieces::beside;
 use crate::sample::{Method, Points};
 use argmin::core::{CostFunction, Executor};
@@ -101,7 +101,7 @@ struct PosedDesign {
 }
 
 impl Wish {
-    fn tried(&self, Changes { values, pressures_kpa }: &Changes) -> Option<PosedDesign> {
+    fn tried(&self, CaseChanges { values, pressures_kpa }: &CaseChanges) -> Option<PosedDesign> {
         let scenario = self.base.scenario_with(values).ok()?;
         let own = || scenario.pressures_pa.iter().copied().reduce(f64::max).map(|pa| [pa; CHANNELS]);
         let actuator_pa = pressures_kpa.map(|all| all.map(|kpa| 1e3 * kpa)).or_else(own).unwrap_or_default();
@@ -324,7 +324,7 @@ fn held(wish: &Wish, shares: &[f64]) -> Vec<Held> {
             _ => axis.at(*share),
         };
         let free = wish.free.iter().zip(shares).enumerate().map(|all| (all.1.0, value(all)));
-        let tried = wish.tried(&Changes::of(free.chain(wish.assumed.iter().map(|axis| (axis, axis.at(0.5))))))?;
+        let tried = wish.tried(&CaseChanges::of(free.chain(wish.assumed.iter().map(|axis| (axis, axis.at(0.5))))))?;
         Some(worst_m(&wish.misses(&tried)))
     };
     let Some(here) = worst_with(None) else { return Vec::new() };

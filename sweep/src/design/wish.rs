@@ -1,6 +1,6 @@
 //! The TOML file of a wish.
 
-use crate::axis::{Axis, Changes, RawAxis, axes};
+use crate::axis::{Axis, CaseChanges, RawAxis, axes};
 use crate::form::{Form, ReadRobot, Wrong};
 use compare::{CompareError, ScenarioFile};
 use serde::Deserialize;
@@ -223,9 +223,9 @@ impl Wish {
     }
 
     /// Values for the scenario at shares of the ranges of free and assumed keys.
-    pub(super) fn changes(&self, free: &[f64], assumed: &[f64]) -> Changes {
+    pub(super) fn changes(&self, free: &[f64], assumed: &[f64]) -> CaseChanges {
         let both = self.free.iter().zip(free).chain(self.assumed.iter().zip(assumed));
-        Changes::of(both.map(|(axis, share)| (axis, axis.at(*share))))
+        CaseChanges::of(both.map(|(axis, share)| (axis, axis.at(*share))))
     }
 }
 

@@ -25,7 +25,7 @@ const THICKNESS_M: f64 = 1e-4;
 /// Load of the soft film, p R0/(E t).
 const LOAD: f64 = 0.01;
 
-fn run() -> Found {
+fn run() -> CheckResult {
     let film = Orthotropic::isotropic(YOUNG_PA, POISSON, THICKNESS_M);
     let field = TensionField::new(film, 0.01).map_err(FemError::Problem)?;
     let exact = elastic(LOAD, POISSON);

@@ -60,7 +60,7 @@ pub fn pull() -> Result<BiasPull, FemError> {
     Ok(pulled)
 }
 
-fn run() -> Found {
+fn run() -> CheckResult {
     let table = Table::table(&SHEAR).map_err(FemError::Problem)?;
     let BiasPull { rows, seen, residual } = pull()?;
     let found = STRIP.shear(&rows).map_err(FemError::Problem)?;

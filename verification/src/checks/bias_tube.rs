@@ -22,7 +22,7 @@ const PRESSURES_PA: [f64; 4] = [3e3, 10e3, 20e3, 30e3];
 const RISE_S: f64 = 0.05;
 const REST_S: f64 = 0.05;
 
-fn run() -> Found {
+fn run() -> CheckResult {
     let mut lines = Vec::new();
     let mut curves = Vec::new();
     for nu12 in [0.0, 0.3] {

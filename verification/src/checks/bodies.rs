@@ -35,7 +35,7 @@ fn film() -> Arc<Orthotropic> {
     Arc::new(Orthotropic::isotropic(1e8, 0.0, 2e-4))
 }
 
-fn rigid() -> Found {
+fn rigid() -> CheckResult {
     let mut mesh = generate::plate(0.06, 0.03, 6, 3, None)?;
     name_all(&mut mesh);
     let mass = masses(&mesh, &[0.2]);
@@ -81,7 +81,7 @@ fn angular(mass: &[f64], x: &[V3], v: &[V3], about: V3) -> V3 {
 
 const PULL_M: f64 = 1e-4;
 
-fn ties() -> Found {
+fn ties() -> CheckResult {
     let mut lines = Vec::new();
     let mut found = Vec::new();
     for (name, mesh) in [("one mesh", generate::plate(0.1, 0.02, 20, 4, None)?), ("tied", tied()?)] {
@@ -133,7 +133,7 @@ pub(crate) fn tied() -> Result<Mesh, FemError> {
     Ok(mesh)
 }
 
-fn scaled() -> Found {
+fn scaled() -> CheckResult {
     let mesh = generate::plate(0.1, 0.1, 10, 10, None)?;
     let mut problem = Problem::new("scaled", mesh, vec![section(film(), 0.0)], vec![]);
     // Viscosity, too, needs mass for a longer step, but less.
@@ -152,7 +152,7 @@ fn scaled() -> Found {
     .into())
 }
 
-fn sealed() -> Found {
+fn sealed() -> CheckResult {
     let mesh = generate::sphere(0.05, 8)?;
     let filling = rise(0.01, 5e3);
     let pressure = Pressure::Sealed { filling, sealed_at_s: 0.02, gas: Gas::default() };

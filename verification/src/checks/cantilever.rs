@@ -42,7 +42,7 @@ const INFLATED_S: f64 = 0.03;
 const MOVE_S: f64 = 0.01;
 const REST_S: f64 = 0.03;
 
-fn slope() -> Found {
+fn slope() -> CheckResult {
     let mut run = CantileverRun::new(&Setup { around: 64, along: 36, grade: 0.0, hourglass: 0.01 }, &[at_share(0.2)])?;
     let [point] = &run.points()?[..] else { return Ok(CheckOutcome::default()) };
     let line = {
@@ -53,7 +53,7 @@ fn slope() -> Found {
     Ok(vec![CheckedNumber::value("tip deflection per force [mm/N]", measured, 1e3 * line, 0.02)].into())
 }
 
-fn wrinkling() -> Found {
+fn wrinkling() -> CheckResult {
     const SHARES: [f64; 6] = [0.25, 0.5, 0.75, 0.9, 0.97, 0.99];
     let mut run =
         CantileverRun::new(&Setup { around: 48, along: 72, grade: 0.6, hourglass: 0.001 }, &SHARES.map(at_share))?;

@@ -38,7 +38,7 @@ fn steps(to: &[f64], step_s: f64) -> Vec<(f64, f64)> {
     points
 }
 
-fn linear() -> Found {
+fn linear() -> CheckResult {
     let fabric = Orthotropic::from_bias(96.5e6, 120e6, 4.05e6, 0.0, 5e-5).map_err(FemError::Problem)?;
     let mut outcome = CheckOutcome::default();
     for (name, turns, modulus_pa) in [("E0", 0.0, 96.5e6), ("E45", 1.0, 4.05e6), ("E90", 2.0, 120e6)] {
@@ -61,7 +61,7 @@ fn linear() -> Found {
     Ok(outcome)
 }
 
-fn rubber() -> Found {
+fn rubber() -> CheckResult {
     let fabric = NeoHookean::new(50.3e6, 2e-4);
     let step_s = 8e-3;
     let strip = PulledStrip {
@@ -95,7 +95,7 @@ fn rubber() -> Found {
 const LOADING: [[f64; 2]; 4] = [[0.0, 0.0], [0.01, 0.5e6], [0.03, 3e6], [0.06, 9e6]];
 const UNLOADING: [[f64; 2]; 4] = [[0.0, 0.0], [0.01, 0.15e6], [0.03, 1.5e6], [0.06, 9e6]];
 
-fn woven() -> Found {
+fn woven() -> CheckResult {
     let (load, back) = (table(&LOADING)?, table(&UNLOADING)?);
     let yarn = Yarn::new(load.clone(), Some(back.clone())).map_err(FemError::Problem)?;
     let fabric = Woven::new([yarn.clone(), yarn], Table::linear(1e6), 0.0, 5e-5).map_err(FemError::Problem)?;

@@ -65,7 +65,7 @@ fn watch(run: &mut Simulation, end_s: f64, look: &dyn Fn(&Simulation) -> f64) ->
     Ok([least, residual])
 }
 
-fn ball_on_floor() -> Found {
+fn ball_on_floor() -> CheckResult {
     let mesh = ball(BALL_M + 0.01)?;
     let mass = masses(&mesh, &[0.2]);
     let total: f64 = mass.iter().sum();
@@ -85,7 +85,7 @@ fn ball_on_floor() -> Found {
     .into())
 }
 
-fn ball_on_sheet() -> Found {
+fn ball_on_sheet() -> CheckResult {
     let mut mesh = generate::plate(0.16, 0.16, 14, 14, None)?;
     mesh.points.iter_mut().for_each(|p| (0..2).for_each(|k| p[k] -= 0.08));
     mesh.append(ball(BALL_M + 0.01)?)?;
@@ -115,7 +115,7 @@ fn outside_m(mesh: &Mesh, x: &[[f64; 3]]) -> f64 {
     over.chain(wrapped).fold(f64::INFINITY, f64::min)
 }
 
-fn crossed() -> Found {
+fn crossed() -> CheckResult {
     let mesh = generate::crossed_sheets(0.12, 0.04, 8, 4e-3)?;
     let mut problem = problem("crossed sheets", mesh.clone(), fabric(), vec![]);
     problem.contact = Some(Contact { friction: 0.3, ..Contact::default() });

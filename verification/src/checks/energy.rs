@@ -14,7 +14,7 @@ pub(super) const CHECK: Check = Check::quick(
 const STEPS: u64 = 100_000;
 const PRESSURE_PA: f64 = 2e3;
 
-fn run() -> Found {
+fn run() -> CheckResult {
     let fabric = NeoHookean::new(50.3e6, 2e-4);
     let flat = |pressure: Amplitude| -> Result<Problem, FemError> {
         let mesh = pillow(0.1, 10, 2e-3)?;

@@ -33,7 +33,7 @@ const SOFT_M: f64 = 24e-3;
 const STRAIN: f64 = 1e-3;
 const END_S: f64 = 0.02;
 
-fn strip() -> Found {
+fn strip() -> CheckResult {
     let soft = PULL_N_M * FOLD_M * FOLD_M;
     let [at_middle, at_edge] = stiffened_moments_n(soft, STIFFER * soft, HALF_M, PULL_N_M, ANGLE);
     let mut errors = Vec::new();
@@ -114,7 +114,7 @@ fn sheet_of(factor: f64) -> Section {
     Section { bending_factor: factor * PULL_N_M * FOLD_M * FOLD_M / own, ..plain }
 }
 
-fn sealed() -> Found {
+fn sealed() -> CheckResult {
     let mut lines = Vec::new();
     for ratio in [1.0, 1.5, 2.0, 4.0] {
         let pouch = Pouch { length_m: 0.06, width_m: ratio * 0.06 };

@@ -47,7 +47,7 @@ fn pouch(element_m: f64, peak_pa: f64, contact: bool) -> Result<Problem, FemErro
     Ok(problem)
 }
 
-fn run() -> Found {
+fn run() -> CheckResult {
     let [order, pierced, residual] = blow_up(true)?;
     let without = blow_up(false)?[1];
     Ok(vec![

@@ -15,7 +15,7 @@ const SIDE_M: f64 = 0.2;
 const COUNT: usize = 16;
 const GAP_M: f64 = 4e-5;
 
-fn run() -> Found {
+fn run() -> CheckResult {
     let flat = volume(generate::pillow(SIDE_M, COUNT, 0.0)?, false)?;
     let [mut folded, mut apart] = [generate::pillow(SIDE_M, COUNT, 0.0)?, generate::pillow(SIDE_M, COUNT, 0.0)?];
     folded.start = start(&folded, |x, up| bent(x, up * 0.5 * GAP_M));

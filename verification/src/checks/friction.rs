@@ -20,7 +20,7 @@ pub(super) const CAPSTAN: Check = Check::quick(
 const TURN: f64 = 20.0 * std::f64::consts::PI / 180.0;
 const G: f64 = 9.81;
 
-fn incline() -> Found {
+fn incline() -> CheckResult {
     let mut lines = Vec::new();
     for (friction, thickness_m) in [(0.3, 1e-3), (0.4, 1e-3), (0.4, 1e-4)] {
         let mesh = generate::plate(0.1, 0.1, 10, 10, None)?;
@@ -59,7 +59,7 @@ const FREE_M: f64 = 0.025;
 /// Pull on the hanging end \[N\].
 const PULL_N: f64 = 1.0;
 
-fn capstan() -> Found {
+fn capstan() -> CheckResult {
     let mut lines = Vec::new();
     for friction in [0.3, 0.6] {
         for (name, problem) in each_mass(&strip(friction)?)? {

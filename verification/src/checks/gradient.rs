@@ -20,7 +20,7 @@ pub(super) const CHECK: Check = Check::quick(
 const LIMIT: f64 = 1e-6;
 const PROBES: usize = 30;
 
-fn run() -> Found {
+fn run() -> CheckResult {
     let mesh = tube(&Tube {
         radius_m: 0.04,
         length_m: 0.1,

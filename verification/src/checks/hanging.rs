@@ -10,7 +10,7 @@ pub(super) const CHECK: Check = Check::quick(
     run,
 );
 
-fn run() -> Found {
+fn run() -> CheckResult {
     let mesh = generate::plate(0.2, 0.05, 20, 5, None)?;
     let film = Orthotropic::isotropic(50e6, 0.3, 1e-3);
     let mut problem = problem("hanging", mesh, section(Arc::new(film), 1.0), vec![]);

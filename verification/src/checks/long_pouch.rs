@@ -21,7 +21,7 @@ const PRESSURE_PA: f64 = 30e3;
 /// Half angle of the arcs of the pouch that is held.
 const HELD_RAD: f64 = 1.0;
 
-fn run() -> Found {
+fn run() -> CheckResult {
     let film = PouchFilm::NeoHookean(C10_PA * THICKNESS_M);
     let free = free_contraction(&POUCH, film, PRESSURE_PA);
     let (mesh, run) = blown(hold("right", [false, false, true]))?;

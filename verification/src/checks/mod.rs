@@ -47,7 +47,7 @@ pub struct Check {
     /// True if it takes more than a few CPU-seconds; `ibr verify` runs it only when asked for all.
     pub slow: bool,
     /// Runs the problem and compares its numbers.
-    pub run: fn() -> Found,
+    pub run: fn() -> CheckResult,
 }
 
 /// Numbers and curves that a check found.
@@ -157,14 +157,19 @@ pub const CHECKS: &[Check] = &[
 ];
 
 /// Outcome of a check, or why its run stopped.
-pub type Found = Result<CheckOutcome, FemError>;
+pub type CheckResult = Result<CheckOutcome, FemError>;
 
 impl Check {
-    const fn quick(name: &'static str, sentence: &'static str, source: &'static str, run: fn() -> Found) -> Check {
+    const fn quick(
+        name: &'static str,
+        sentence: &'static str,
+        source: &'static str,
+        run: fn() -> CheckResult,
+    ) -> Check {
         Check { name, sentence, source, slow: false, run }
     }
 
-    const fn slow(name: &'static str, sentence: &'static str, source: &'static str, run: fn() -> Found) -> Check {
+    const fn slow(name: &'static str, sentence: &'static str, source: &'static str, run: fn() -> CheckResult) -> Check {
         Check { slow: true, ..Check::quick(name, sentence, source, run) }
     }
 }

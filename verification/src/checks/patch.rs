@@ -55,7 +55,7 @@ fn distorted(triangles: bool) -> Result<Mesh, FemError> {
     Ok(mesh)
 }
 
-fn uniform() -> Found {
+fn uniform() -> CheckResult {
     let fabric = NeoHookean::new(50.3e6, 2e-4);
     let mut lines = Vec::new();
     for (kind, triangles) in [("quads", false), ("triangles", true)] {
@@ -96,7 +96,7 @@ fn principal_stress(fabric: &NeoHookean, f1: [f64; 2], f2: [f64; 2]) -> [f64; 2]
     [mean + radius, mean - radius]
 }
 
-fn bending() -> Found {
+fn bending() -> CheckResult {
     let (d, radius) = (1e-4, 0.05);
     let stored = |mesh: &Mesh, triangles_edge: f64| {
         let q =
@@ -122,7 +122,7 @@ fn bending() -> Found {
     .into())
 }
 
-fn two_thicknesses() -> Found {
+fn two_thicknesses() -> CheckResult {
     let thick = 2.0;
     let fabric = |scale: f64| Orthotropic::isotropic(1e8, 0.3, scale * 2e-4);
     let radius = 0.05;
@@ -168,7 +168,7 @@ fn two_thicknesses() -> Found {
     Ok(lines.into())
 }
 
-fn rigid() -> Found {
+fn rigid() -> CheckResult {
     let mut lines = Vec::new();
     let (s, c) = 1.0_f64.sin_cos();
     for law in FABRICS {

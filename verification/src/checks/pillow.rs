@@ -24,7 +24,7 @@ const CENTRE_M: [f64; 2] = [0.205, 0.217];
 const MID_EDGE_M: [f64; 2] = [0.11, 0.125];
 const MESHES: [usize; 5] = [16, 24, 32, 40, 48];
 
-fn run() -> Found {
+fn run() -> CheckResult {
     let rows = MESHES.into_iter().map(|n| Ok((n, ensemble(n)?))).collect::<Result<Vec<_>, FemError>>()?;
     let mut lines = Vec::new();
     for (n, [centre, edge]) in &rows {

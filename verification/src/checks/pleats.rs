@@ -12,7 +12,7 @@ pub(super) const CHECK: Check = Check::slow(
     run,
 );
 
-fn run() -> Found {
+fn run() -> CheckResult {
     let mut lines = Vec::new();
     let (radius, modulus, thickness_m, pressure) = (0.1, 3500e6, 25e-6, 1e3);
     let [thickness, volume, share] = inflate(

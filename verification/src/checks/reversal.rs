@@ -15,7 +15,7 @@ const SECTION_M2: f64 = 0.02 * 2e-4;
 /// Strain at which the strip turns, and when \[s\].
 const TURN: (f64, f64) = (0.1, 0.05);
 
-fn run() -> Found {
+fn run() -> CheckResult {
     let table = |rows: &[[f64; 2]]| Curve::table(rows).map_err(FemError::Problem);
     let load = table(&[[0.0, 0.0], [0.1, 10e6]])?;
     let back = table(&[[0.0, 0.0], [0.09, 0.5e6], [0.1, 10e6]])?;

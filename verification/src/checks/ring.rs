@@ -33,7 +33,7 @@ fn exact() -> (ClampedCylinder, f64) {
     (shell, pressure_pa)
 }
 
-fn run() -> Found {
+fn run() -> CheckResult {
     let (shell, pressure_pa) = exact();
     let far = shell::far_displacement_m(&shell, pressure_pa);
     let edge = shell::edge_length_m(&shell);

@@ -36,7 +36,7 @@ struct RampEnd {
     y_mm: f64,
 }
 
-fn run() -> Found {
+fn run() -> CheckResult {
     let (mut lines, mut tips) = (Vec::new(), Vec::new());
     for (k, name) in ROBOTS.into_iter().enumerate() {
         let end = bend(name, &RobotSettings::default())?;
@@ -54,7 +54,7 @@ fn run() -> Found {
     Ok(CheckOutcome::drawn(lines, Figure::new("Four robots at 30 kPa, as recommended", axes, curves)))
 }
 
-fn folds() -> Found {
+fn folds() -> CheckResult {
     // Without wrinkles below the mesh, so that the elements' shape gives the tension next to a fold.
     let low = RobotSettings { actuator_pa: 10e3, wrinkle_length: None, ..RobotSettings::default() };
     let stiff = RobotSettings { bending_factor: 10.0 * low.bending_factor, ..low.clone() };

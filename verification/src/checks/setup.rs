@@ -9,7 +9,7 @@ pub(super) use fem::problem::{
 };
 pub(super) use fem::{FemError, Mesh, Problem, Simulation};
 
-pub(super) use super::{Check, CheckOutcome, CheckedNumber, Figure, FigureCurve, Found};
+pub(super) use super::{Check, CheckOutcome, CheckResult, CheckedNumber, Figure, FigureCurve};
 
 use fem::NODE;
 use fem::sheet::Sheet;

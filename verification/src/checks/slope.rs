@@ -16,7 +16,7 @@ const GRAVITY: f64 = 9.81;
 const RISE_S: f64 = 0.02;
 const END_S: f64 = 0.12;
 
-fn run() -> Found {
+fn run() -> CheckResult {
     let mut lines = Vec::new();
     for (kind, rigid) in [("rigid", true), ("flexible", false)] {
         // tan 30° = 0.577: the plate sticks at 0.6 and slides at 0.3.

@@ -86,7 +86,7 @@ fn force(set: &str, total_n: [f64; 3]) -> NodalForce {
     NodalForce { set: set.to_owned(), total_n, amplitude: ramp(SETTLE.0) }
 }
 
-fn small() -> Found {
+fn small() -> CheckResult {
     let d = stiffness_nm();
     // A droop of 1/500 of the length: rotations stay below 0.003.
     let g = 0.002 * LENGTH_M * 8.0 * d / LENGTH_M.powi(4) / (DENSITY * THICKNESS_M);
@@ -112,7 +112,7 @@ fn small() -> Found {
     .into())
 }
 
-fn large() -> Found {
+fn large() -> CheckResult {
     let load = 3.0;
     let exact = elastica::cantilever(load);
     let mut errors = Vec::new();
@@ -140,7 +140,7 @@ fn large() -> Found {
     Ok(CheckOutcome::drawn(lines, Figure::new("Cantilever under a tip force, F L²/B = 3", axes, curves)))
 }
 
-fn roll() -> Found {
+fn roll() -> CheckResult {
     let (n, radius) = (20, 0.05);
     let mut mesh = strip(LENGTH_M, n)?;
     // Chords keep their length, so the flat start is unstretched.

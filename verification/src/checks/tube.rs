@@ -17,7 +17,7 @@ const FABRIC: NeoHookean = NeoHookean::new(50.3e6, 2e-4);
 const RADIUS_M: f64 = 0.04;
 const LENGTH_M: f64 = 0.24;
 
-fn run() -> Found {
+fn run() -> CheckResult {
     let mut lines = Vec::new();
     for pressure_pa in [2e3, 60e3] {
         let exact = exact(pressure_pa)?;

@@ -32,7 +32,7 @@
 
 use std::f64::consts::PI;
 
-use super::Known;
+use super::KnownSections;
 use super::solve::{falling_root, integral};
 
 /// r/R0 of the stretchless balloon, `4√(2π)/Γ(¼)²`.
@@ -135,7 +135,7 @@ fn stretch_under(tension: f64, a: f64, e: f64) -> f64 {
     stretch
 }
 
-pub(super) fn known() -> Known {
+pub(super) fn known() -> KnownSections {
     let [stiff, soft] = [1e-3, 1e-2].map(|load| elastic(load, 0.3));
     let sizes = |at: &Elastic| [at.radius, at.thickness, at.volume];
     vec![

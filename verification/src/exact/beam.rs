@@ -14,7 +14,7 @@
 
 use std::f64::consts::PI;
 
-use super::Known;
+use super::KnownSections;
 pub use models::comer_levy::{curvature_ratio, moment_ratio, moment_ratio_from_curvature_ratio};
 
 /// Section of an inflated tube whose wall carries tension only.
@@ -98,7 +98,7 @@ fn shear_stiffness_n(beam: &Cantilever) -> f64 {
 }
 
 /// See `known.txt`; R = 40 mm, p = 2 kPa, E t = 41.6 kN/m.
-pub(super) fn known() -> Known {
+pub(super) fn known() -> KnownSections {
     let slack = [0.0, PI / 6.0, PI / 4.0, PI / 3.0, PI / 2.0, PI / 1.5, PI * 0.75, PI / 1.2, PI * 0.9];
     let tube = |radius_m, pressure_pa| TubeSection {
         radius_m,

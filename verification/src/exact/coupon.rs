@@ -13,7 +13,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::Known;
+use super::KnownSections;
 use models::fabrics::BiasExtension;
 
 /// Elastic constants of a linear orthotropic sheet.
@@ -48,7 +48,7 @@ fn mixed(sheet: &OrthotropicSheet) -> f64 {
 }
 
 /// See `known.txt`; for the bias extension test, [`BiasExtension`] of 250 mm by 20 mm.
-pub(super) fn known() -> Known {
+pub(super) fn known() -> KnownSections {
     let sheet = OrthotropicSheet { warp_pa: 96.5, fill_pa: 120.0, poisson: 0.3, shear_pa: 1.032 };
     let uncoupled = OrthotropicSheet { poisson: 0.0, ..sheet };
     let moduli = [0.0_f64, 15.0, 30.0, 45.0, 60.0, 90.0].map(|degrees| modulus_pa(&sheet, degrees.to_radians()));

@@ -27,7 +27,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::Known;
+use super::KnownSections;
 use super::pouch::Pouch;
 use super::solve::{falling_root, sinc};
 
@@ -89,7 +89,7 @@ fn stretch_of_free_width(load: f64) -> f64 {
 }
 
 /// See `known.txt`; L0 = W = 60 mm, t = 0.05 mm, E = 208 MPa.
-pub(super) fn known() -> Known {
+pub(super) fn known() -> KnownSections {
     let pouch = Pouch { length_m: 0.06, width_m: 0.06 };
     let (linear, neo) = (PouchFilm::Linear(10.4e3 / 0.91), PouchFilm::NeoHookean(10.4e3 / 6.0));
     let open = PouchFilm::NeoHookeanFreeWidth(10.4e3 / 6.0);

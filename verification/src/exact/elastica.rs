@@ -18,7 +18,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::Known;
+use super::KnownSections;
 use super::solve::{falling_root, integral};
 
 /// Bending stiffness of a plate, `D = E t³/(12(1 − ν²))` \[N m\].
@@ -95,7 +95,7 @@ fn from_tip(tip: f64, f: impl Fn(f64) -> f64) -> f64 {
     integral(integrand, start, FRAC_PI_2, PANELS)
 }
 
-pub(super) fn known() -> Known {
+pub(super) fn known() -> KnownSections {
     let [quarter, one, two, five, ten] = [0.25, 1.0, 2.0, 5.0, 10.0].map(cantilever);
     let all = |tip: &ElasticaTip| [tip.deflection, tip.shortening, tip.rotation];
     let tip_force = [&[quarter.deflection][..], &all(&one), &[two.deflection, five.deflection], &all(&ten)];

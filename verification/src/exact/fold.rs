@@ -16,7 +16,7 @@
 //! Valid without stretch, for sheets much longer than √(D/T). Derivation standard: Love, A treatise on the mathematical theory of
 //! elasticity, §262 (recalled); the stiff end derived here.
 
-use super::Known;
+use super::KnownSections;
 use super::solve::{falling_root, integral};
 
 /// Moment per width at a clamp at `angle` from the pull, 2 √(D T) sin ½θ \[N\].
@@ -35,7 +35,7 @@ pub fn stiffened_moments_n(soft_nm: f64, stiff_nm: f64, length_m: f64, pull_n_m:
     [square(meet, angle).sqrt(), moment_n(soft_nm, pull_n_m, meet)]
 }
 
-pub(super) fn known() -> Known {
+pub(super) fn known() -> KnownSections {
     let [half, one, more] = [0.5, 1.0, 1.5].map(|angle| stiffened_moments_n(1.0, 60.0, 7.5, 1.0, angle));
     vec![("fold of a pulled sheet", vec![moment_n(1.0, 1.0, 1.0), half[0], one[0], more[0], one[1]])]
 }

@@ -22,7 +22,7 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, SQRT_2};
 
-use super::Known;
+use super::KnownSections;
 use super::hinge::{BentBody, LeverRule, axis_point_m, restoring_moment_nm};
 use super::solve::falling_root;
 use models::fabrics::shear_modulus;
@@ -111,7 +111,7 @@ fn magic_angle() -> f64 {
 }
 
 /// See `known.txt`; W = 60 mm, Lf = 300 mm, R = 40 mm, p = 2 kPa.
-pub(super) fn known() -> Known {
+pub(super) fn known() -> KnownSections {
     const PRESSURES_PA: [f64; 3] = [10e3, 20e3, 30e3];
     let muscle = |shear_stiffness_n_per_m| Fpam { flat_width_m: 0.06, rest_length_m: 0.3, shear_stiffness_n_per_m };
     let alpha = |shear, pressure_pa, rule| bending_alpha(&muscle(shear), 0.04, pressure_pa, 2e3, rule);

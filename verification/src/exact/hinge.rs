@@ -25,7 +25,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::Known;
+use super::KnownSections;
 use super::pouch::{Pouch, bulge_height_m, contraction, force_n};
 use super::solve::{falling_root, sinc, sine_lag};
 
@@ -124,7 +124,7 @@ pub fn axis_point_m(body: &BentBody, station_m: f64) -> [f64; 2] {
 }
 
 /// See `known.txt`; R = 40 mm, p = 2 kPa, L_b = 360 mm, L0 = W = 60 mm.
-pub(super) fn known() -> Known {
+pub(super) fn known() -> KnownSections {
     const BODY_PA: f64 = 2e3;
     const PRESSURES_PA: [f64; 3] = [10e3, 20e3, 30e3];
     const SQUARE: Pouch = Pouch { length_m: 0.06, width_m: 0.06 };

@@ -23,7 +23,7 @@
 
 use std::f64::consts::PI;
 
-use super::Known;
+use super::KnownSections;
 use super::beam::{
     BeamTheory, Cantilever, TubeSection, collapse_moment_nm, curvature_ratio, moment_ratio, tip_deflection_m,
     wrinkling_curvature_per_m,
@@ -80,7 +80,7 @@ fn moment_slope(taut: f64) -> f64 {
     sine * (a * taut - 4.0 * b * sine) / (4.0 * b * b)
 }
 
-pub(super) fn known() -> Known {
+pub(super) fn known() -> KnownSections {
     let deflections = [0.25, 0.5, 0.6, 0.75, 0.9, 0.95, 0.99].map(deflection_ratio);
     vec![("inflated cantilever under a tip load", deflections.to_vec())]
 }

@@ -12,7 +12,7 @@
 
 use std::f64::consts::PI;
 
-use super::Known;
+use super::KnownSections;
 
 /// Coefficients `[a, b]` of [`tondu_lopez_force_n`]: `a = 3/tan²α0`, `b = 1/sin²α0`.
 pub fn tondu_lopez_coefficients(rest_angle: f64) -> [f64; 2] {
@@ -33,7 +33,7 @@ pub fn max_contraction(rest_angle: f64) -> f64 {
     1.0 - 1.0 / (3.0_f64.sqrt() * rest_angle.cos())
 }
 
-pub(super) fn known() -> Known {
+pub(super) fn known() -> KnownSections {
     let tondu_lopez = [20.0_f64, 30.0, 45.0].map(f64::to_radians).map(|rest| {
         let [a, b] = tondu_lopez_coefficients(rest);
         let [blocked, shorter] = [0.0, 0.1].map(|contraction| tondu_lopez_force_n(0.01, rest, contraction, 30e3, 1.0));

@@ -13,7 +13,7 @@
 //!
 //! Standard (Treloar, The Physics of Rubber Elasticity, recalled); each is the slope of W at the stretch of the free sides.
 
-use super::Known;
+use super::KnownSections;
 
 /// How the sides of the sheet are held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,7 +37,7 @@ pub fn tension_n_per_m(c10_t: f64, stretch: f64, sides: SideSupport) -> f64 {
 }
 
 /// See `known.txt`; C10 t = 1 N/m.
-pub(super) fn known() -> Known {
+pub(super) fn known() -> KnownSections {
     let pulls =
         [SideSupport::Free, SideSupport::Kept, SideSupport::Pulled].map(|sides| tension_n_per_m(1.0, 2.0, sides));
     vec![("neo-Hookean sheet", pulls.to_vec())]

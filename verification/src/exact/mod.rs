@@ -30,11 +30,11 @@ pub mod shell;
 mod solve;
 pub mod tube;
 
-use oracles::Known;
+use oracles::KnownSections;
 pub use oracles::OracleRow;
 
 /// Closed forms with known numbers, in the order of `known.txt`.
-const FORMS: &[fn() -> Known] = &[
+const FORMS: &[fn() -> KnownSections] = &[
     pouch::known,
     elastic_pouch::known,
     hinge::known,

@@ -3,7 +3,7 @@
 //! The expected ones stand in `known.txt` as text, so that the last printed digit sets the tolerance, which no code can widen.
 
 /// Sections of `known.txt` with what this code gives for their lines, in order.
-pub(super) type Known = Vec<(&'static str, Vec<f64>)>;
+pub(super) type KnownSections = Vec<(&'static str, Vec<f64>)>;
 
 const PRINTED: &str = include_str!("known.txt");
 
@@ -32,7 +32,7 @@ impl OracleRow {
 }
 
 /// Every oracle of some closed forms.
-pub(super) fn table(forms: &[fn() -> Known]) -> Vec<OracleRow> {
+pub(super) fn table(forms: &[fn() -> KnownSections]) -> Vec<OracleRow> {
     let all = forms.iter().flat_map(|known| known());
     all.flat_map(|(name, computed)| section(PRINTED, name, &computed)).collect()
 }

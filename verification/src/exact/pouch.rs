@@ -20,7 +20,7 @@
 
 use std::f64::consts::{FRAC_PI_2, LN_10, PI};
 
-use super::Known;
+use super::KnownSections;
 use super::solve::{falling_root, integral, sinc, sine_deficit};
 
 /// Contraction of a fully round pouch, 1 − 2/π.
@@ -92,7 +92,7 @@ pub fn robin_end_factor(width_over_length: f64) -> f64 {
 }
 
 /// See `known.txt`; L0 = W = 60 mm.
-pub(super) fn known() -> Known {
+pub(super) fn known() -> KnownSections {
     const SQUARE: Pouch = Pouch { length_m: 0.06, width_m: 0.06 };
     let arcs = [0.25, 0.5, 1.0, 1.25, 1.4, 1.5, FRAC_PI_2];
     let linear = arcs.map(|theta| [contraction(theta), volume_m3(&SQUARE, theta), force_n(&SQUARE, theta, 30e3)]);

@@ -20,7 +20,7 @@
 //! The differential equation is the standard one (Timoshenko & Woinowsky-Krieger, Theory of Plates and Shells, ch. 15,
 //! recalled) with the tension term; the solution with tension is derived here.
 
-use super::Known;
+use super::KnownSections;
 
 /// A cylinder clamped at a rigid ring.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -86,7 +86,7 @@ fn decaying_waves(a: f64, b_squared: f64, x: f64) -> [f64; 2] {
 }
 
 /// See `known.txt`; R = 40 mm, t = 0.2 mm, E = 208 MPa, ν = 0.3, 2 kPa.
-pub(super) fn known() -> Known {
+pub(super) fn known() -> KnownSections {
     let shell = |factor: f64| ClampedCylinder {
         radius_m: 0.04,
         membrane_stiffness_n_per_m: 208e6 * 2e-4,

@@ -25,7 +25,7 @@
 
 use std::f64::consts::{FRAC_PI_4, PI};
 
-use super::Known;
+use super::KnownSections;
 use models::fabrics::{Fabric, NeoHookean, Orthotropic};
 
 /// A closed cylinder of fabric, before it is inflated.
@@ -205,7 +205,7 @@ fn solve_3x3(m: [[f64; 3]; 3], b: [f64; 3]) -> [f64; 3] {
     })
 }
 
-pub(super) fn known() -> Known {
+pub(super) fn known() -> KnownSections {
     let state = |fabric: &dyn Fabric, warp_angle, radius_m, pressure_pa, ends| {
         let none = Inflated { axial_stretch: f64::NAN, hoop_stretch: f64::NAN, slide: f64::NAN };
         inflate(&ClosedTube { radius_m, warp_angle, fabric }, pressure_pa, ends).unwrap_or(none)

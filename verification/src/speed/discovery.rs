@@ -1,7 +1,7 @@
 //! How often a diagnosis is right, on data whose hidden effects follow other laws.
 
 use crate::{Error, Findings, Printed};
-use challenge::bench::{Answer, Attainable, Confusion, Discovery, DiscoveryOptions, Goal, PlannedBench, Rate};
+use challenge::bench::{Attainable, Confusion, Discovery, DiscoveryOptions, Goal, PieceAnswer, PlannedBench, Rate};
 use challenge::truth::{ROBOTS, standard_protocol};
 use challenge::{Draw, Truth};
 use compare::Evidence;
@@ -62,7 +62,7 @@ impl DiscoveryWork {
     ///
     /// # Errors
     /// A folder that cannot be written to; an interrupt.
-    pub fn answers(&self, shard: Shard, threads: usize, progress: Progress) -> Result<Vec<Answer>, Error> {
+    pub fn answers(&self, shard: Shard, threads: usize, progress: Progress) -> Result<Vec<PieceAnswer>, Error> {
         let own: Vec<usize> = shard.own(0..self.pieces()).collect();
         let answer = |k: usize| {
             let file = self.files.get(own[k]);
@@ -83,7 +83,7 @@ impl DiscoveryWork {
     ///
     /// # Errors
     /// A robot without an equilibrium, or a diagnosis that cannot be made.
-    pub fn findings(self, answers: Vec<Answer>, machine: &str) -> Result<Findings, Error> {
+    pub fn findings(self, answers: Vec<PieceAnswer>, machine: &str) -> Result<Findings, Error> {
         let DiscoveryOptions { seed, sets, laws } = self.bench.options;
         let bench = self.bench.table(answers);
         let seconds = seconds(seed)?;

@@ -20,12 +20,12 @@ const FEWEST: usize = 4;
 const ALIKE: f64 = 1e4;
 
 /// What a row's deviation is divided by.
-type Unit = dyn Fn(&[f64; 3]) -> f64;
+type RowScale = dyn Fn(&[f64; 3]) -> f64;
 
 /// Steadied standard deviations and their degrees of freedom, from sd, ν and the size of every row.
 pub(super) fn steadied(rows: &[[f64; 3]]) -> Vec<[f64; 2]> {
-    let apart = |unit: &Unit| common(rows, unit).1;
-    let [own, ratio]: [&Unit; 2] = [&|_| 1.0, &|row| row[2]];
+    let apart = |unit: &RowScale| common(rows, unit).1;
+    let [own, ratio]: [&RowScale; 2] = [&|_| 1.0, &|row| row[2]];
     let unit = if apart(own) < apart(ratio) { own } else { ratio };
     let (level, variance) = common(rows, unit);
     if rows.len() < FEWEST {
@@ -41,7 +41,7 @@ pub(super) fn steadied(rows: &[[f64; 3]]) -> Vec<[f64; 2]> {
 }
 
 /// Mean of the unbiased ln s², and its variance beyond the variance of a few tests.
-fn common(rows: &[[f64; 3]], unit: &Unit) -> (f64, f64) {
+fn common(rows: &[[f64; 3]], unit: &RowScale) -> (f64, f64) {
     let of = |row: &[f64; 3]| 2.0 * (row[0] / unit(row)).ln() - digamma(0.5 * row[1]) + (0.5 * row[1]).ln();
     let n = rows.len() as f64;
     let mean = rows.iter().map(of).sum::<f64>() / n;

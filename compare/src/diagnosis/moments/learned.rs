@@ -47,7 +47,7 @@ pub(crate) fn moments(
     Ok((Some(shown).filter(|_| options.missing_moment), learned))
 }
 
-type Told = (LearnedLaw, Vec<MomentCurve>);
+type ToldLaw = (LearnedLaw, Vec<MomentCurve>);
 
 /// Laws that are fitted to the markers: those that predict moments best.
 const SHORT_LIST: usize = 7;
@@ -58,7 +58,7 @@ fn learn(
     options: &Options,
     found: &Diagnosis,
     points: &[MomentPoint],
-) -> Result<Option<Told>, CompareError> {
+) -> Result<Option<ToldLaw>, CompareError> {
     let Some(nothing_mm) = found.base.heldout_mm else { return Ok(None) };
     let ranked = rank(&material(case, seen)?, seen[0].robot());
     let name = free_name(&case.first().scenario);
@@ -100,11 +100,11 @@ struct LawTrial<'a> {
     name: &'a str,
 }
 
-type Use<'u, T> = dyn FnMut(&DiagnosisCase, &Fit, &'static LawFormula) -> Result<Option<T>, CompareError> + 'u;
+type LawUse<'u, T> = dyn FnMut(&DiagnosisCase, &Fit, &'static LawFormula) -> Result<Option<T>, CompareError> + 'u;
 
 impl LawTrial<'_> {
     /// Fits a law to the markers; `None` without equilibrium.
-    fn with<T>(&self, law: &Tried, each: &mut Use<T>) -> Result<Option<T>, CompareError> {
+    fn with<T>(&self, law: &Tried, each: &mut LawUse<T>) -> Result<Option<T>, CompareError> {
         let Some(form) = law.form else { return Ok(None) };
         let extended = |source: &DiagnosisSource| DiagnosisSource {
             scenario: extended(&source.scenario, form, self.name, self.line),

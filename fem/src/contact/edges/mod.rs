@@ -57,7 +57,7 @@ use body::ForceMemory;
 use chunk::EdgeChunk;
 
 /// What edges cannot find again from positions, after the number of sides.
-type Saved = (usize, Searched, [f64; 2], ForceMemory, Vec<EdgeChunk>);
+type SavedEdges = (usize, Searched, [f64; 2], ForceMemory, Vec<EdgeChunk>);
 
 impl Term for Edges {
     fn line(&self) -> LedgerLine {
@@ -134,7 +134,7 @@ impl Transient for Edges {
     }
 
     fn restore(&mut self, saved: &[u8]) -> Option<()> {
-        let (sides, searched, [stored_j, lost_j], held, chunks): Saved = unpack(saved)?;
+        let (sides, searched, [stored_j, lost_j], held, chunks): SavedEdges = unpack(saved)?;
         let count = self.searched.placed_m.len();
         let fits = sides == self.sides.list.len()
             && searched.placed_m.len() == count

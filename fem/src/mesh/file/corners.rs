@@ -12,10 +12,10 @@ use crate::mesh::{Mesh, Part};
 use crate::vec3::{add, area, dot};
 
 /// A triangle: its part and its place there.
-type At = (usize, usize);
+type TrianglePlace = (usize, usize);
 
 /// Edges by their nodes in the way they are run along.
-type Edges = HashMap<(u32, u32), Vec<At>>;
+type TrianglesByEdge = HashMap<(u32, u32), Vec<TrianglePlace>>;
 
 /// Turns the diagonals at such corners in both sheets; returns the notice for the user.
 pub(super) fn turn(mesh: &mut Mesh) -> Result<Option<String>, String> {
@@ -24,7 +24,7 @@ pub(super) fn turn(mesh: &mut Mesh) -> Result<Option<String>, String> {
         return Ok(None);
     }
     let edges = edges(mesh);
-    let is_corner = |at: &At| pairs.contains_key(at);
+    let is_corner = |at: &TrianglePlace| pairs.contains_key(at);
     let mut turned = Vec::new();
     for at in pairs.keys() {
         let Some([a, b, c]) = corner(mesh.parts[at.0].triangles[at.1], &edges) else { continue };
@@ -66,8 +66,8 @@ pub(super) fn turn(mesh: &mut Mesh) -> Result<Option<String>, String> {
 }
 
 /// Triangles on the same nodes that look opposite ways.
-fn pairs(mesh: &Mesh) -> std::collections::BTreeMap<At, At> {
-    let mut first: HashMap<[u32; 3], At> = HashMap::new();
+fn pairs(mesh: &Mesh) -> std::collections::BTreeMap<TrianglePlace, TrianglePlace> {
+    let mut first: HashMap<[u32; 3], TrianglePlace> = HashMap::new();
     let mut pairs = std::collections::BTreeMap::new();
     for (part, block) in mesh.parts.iter().enumerate() {
         for (i, nodes) in block.triangles.iter().enumerate() {
@@ -86,8 +86,8 @@ fn pairs(mesh: &Mesh) -> std::collections::BTreeMap<At, At> {
 }
 
 /// Every edge with the elements that run along it that way; quads behind triangles.
-fn edges(mesh: &Mesh) -> Edges {
-    let mut edges = Edges::new();
+fn edges(mesh: &Mesh) -> TrianglesByEdge {
+    let mut edges = TrianglesByEdge::new();
     let mut note = |part: usize, i: usize, nodes: &[u32]| {
         for k in 0..nodes.len() {
             edges.entry((nodes[k], nodes[(k + 1) % nodes.len()])).or_default().push((part, i));
@@ -105,7 +105,7 @@ fn edges(mesh: &Mesh) -> Edges {
 }
 
 /// The nodes, the one at the corner last: its two edges belong to the pair only, the third one to two more elements.
-fn corner(nodes: [u32; 3], edges: &Edges) -> Option<[u32; 3]> {
+fn corner(nodes: [u32; 3], edges: &TrianglesByEdge) -> Option<[u32; 3]> {
     let uses = |a: u32, b: u32| [(a, b), (b, a)].iter().filter_map(|edge| edges.get(edge)).map(Vec::len).sum::<usize>();
     let turned = |k: usize| [nodes[k], nodes[(k + 1) % 3], nodes[(k + 2) % 3]];
     (0..3).map(turned).find(|[a, b, c]| uses(*b, *c) == 2 && uses(*c, *a) == 2 && uses(*a, *b) > 2)

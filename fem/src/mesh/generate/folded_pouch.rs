@@ -33,10 +33,10 @@ pub struct FoldedPouch {
 }
 
 /// One flat panel: name, contact layer, level above the bottom, and which side it is on (−1, 0 whole width, 1).
-type Panel = (&'static str, u32, usize, i8);
+type FlatPanel = (&'static str, u32, usize, i8);
 
 /// In this order a panel finds the nodes that it shares with earlier ones.
-const PANELS: [Panel; 6] = [
+const PANELS: [FlatPanel; 6] = [
     ("bottom", 0, 0, 0),
     ("right_lower", 1, 1, 1),
     ("right_upper", 2, 2, 1),
@@ -106,7 +106,7 @@ impl NodeOwner {
     }
 
     /// Of the node in column `i` of `along` and at place `j` of `0..=last` across the pouch.
-    fn of(panel: &Panel, [i, along]: [usize; 2], [j, last, fold]: [usize; 3]) -> NodeOwner {
+    fn of(panel: &FlatPanel, [i, along]: [usize; 2], [j, last, fold]: [usize; 3]) -> NodeOwner {
         let (_, _, level, side) = *panel;
         if i == 0 || i == along {
             return NodeOwner::Weld;
@@ -126,7 +126,7 @@ fn add(
     mesh: &mut Mesh,
     pouch: &FoldedPouch,
     between: usize,
-    panel: &Panel,
+    panel: &FlatPanel,
     known: &mut HashMap<(NodeOwner, usize, usize), u32>,
 ) -> Grid {
     let (fold, last) = (pouch.in_fold, 2 * pouch.in_fold + between);
@@ -160,7 +160,7 @@ fn across_m(pouch: &FoldedPouch, between: usize, j: usize) -> f64 {
     }
 }
 
-fn name_nodes(mesh: &mut Mesh, panel: &Panel, grid: &Grid, creases: &mut Vec<Vec<u32>>) {
+fn name_nodes(mesh: &mut Mesh, panel: &FlatPanel, grid: &Grid, creases: &mut Vec<Vec<u32>>) {
     if panel.3 != 0 {
         creases.extend([grid.row(0), grid.row(grid.nv)]);
         return;

@@ -49,9 +49,9 @@ pub(crate) fn section(mesh: &Mesh, positions: &[V3], values: &[f64], cut: &Cut, 
 }
 
 /// A cut element, and where it is cut now.
-type Piece = (usize, [[f64; 3]; 2]);
+type CutElement = (usize, [[f64; 3]; 2]);
 
-fn pieces(mesh: &Mesh, positions: &[V3], cut: &Cut) -> Vec<Piece> {
+fn pieces(mesh: &Mesh, positions: &[V3], cut: &Cut) -> Vec<CutElement> {
     let height: Vec<f64> = (0..mesh.points.len()).map(|n| dot(cut.normal, mesh.start_of(n)) - cut.at_m).collect();
     // A node in the plane counts as behind it: a ring of nodes is then drawn once, by the elements on one side.
     let before = |node: u32| height[node as usize] > 1e-9;
@@ -74,7 +74,7 @@ fn pieces(mesh: &Mesh, positions: &[V3], cut: &Cut) -> Vec<Piece> {
 }
 
 /// The view's axes, turned about its right so that it looks along the normal of the points' mean plane.
-fn facing(pieces: &[Piece], axes: [V3; 3]) -> [V3; 3] {
+fn facing(pieces: &[CutElement], axes: [V3; 3]) -> [V3; 3] {
     let [right, up, towards] = axes;
     let all = || pieces.iter().flat_map(|piece| piece.1);
     let count = all().count() as f64;

@@ -17,10 +17,10 @@ const ALIKE: f64 = 1e-12;
 const SHIFTS_PER_ROW: usize = 6;
 
 /// Shifts to the neighbours of a node in the numbering, ascending, and their weights.
-type Row = Vec<(i32, f64)>;
+type StencilRow = Vec<(i32, f64)>;
 
 /// Shifts, size and weights of stencils that are equal but for rounding, and where they lie.
-type Known = BTreeMap<(Vec<i32>, i64, Vec<i64>), (Range<u32>, Option<u32>)>;
+type KnownStencils = BTreeMap<(Vec<i32>, i64, Vec<i64>), (Range<u32>, Option<u32>)>;
 
 /// Eight consecutive nodes and all shifts at which they have neighbours; where one of them has none its weight is 0.
 #[derive(Debug, Clone)]
@@ -49,7 +49,7 @@ pub(super) struct BendingRows {
 impl BendingRows {
     /// From the rows of the nodes `own` (numbers within the patch) among `places`; `local` turns a place into a number.
     pub(super) fn new(matrix: &BendingMatrix, places: &[u32], own: &[u32], local: impl Fn(u32) -> u32) -> BendingRows {
-        let mut rows: Vec<Row> = vec![Vec::new(); places.len()];
+        let mut rows: Vec<StencilRow> = vec![Vec::new(); places.len()];
         for i in own {
             let shift = |(j, value): (u32, f64)| (local(j) as i32 - *i as i32, value);
             let row = &mut rows[*i as usize];
@@ -57,7 +57,7 @@ impl BendingRows {
             row.sort_by_key(|entry| entry.0);
         }
         let mut bend = BendingRows { start: vec![0], ..BendingRows::default() };
-        let (mut next, mut known) = (0, Known::new());
+        let (mut next, mut known) = (0, KnownStencils::new());
         while let Some(i) = (next..rows.len()).find(|i| !rows[*i].is_empty()) {
             // A mixed group ends where a stretch begins, which is cheaper on its own.
             next = if stretch(&rows, i) {
@@ -80,8 +80,8 @@ impl BendingRows {
     }
 
     /// Eight rows by the shifts of all of them; `known` holds what an earlier eight may share.
-    fn push(&mut self, first: usize, shifts: &[i32], rows: &[Row], known: &mut Known) {
-        let weight = |row: &Row, shift: i32| row.iter().find(|e| e.0 == shift).map_or(0.0, |e| e.1);
+    fn push(&mut self, first: usize, shifts: &[i32], rows: &[StencilRow], known: &mut KnownStencils) {
+        let weight = |row: &StencilRow, shift: i32| row.iter().find(|e| e.0 == shift).map_or(0.0, |e| e.1);
         let lanes = |shift: &i32| std::array::from_fn(|lane| weight(&rows[lane], *shift));
         let weights: Vec<Lane> = shifts.iter().map(lanes).collect();
         let numbers = weights.as_flattened();
@@ -102,7 +102,7 @@ impl BendingRows {
         self.stencils.push(Stencil { first: first as u32, entries: entries.clone(), own: *own });
     }
 
-    fn push_single(&mut self, i: usize, row: &Row, places: &[u32]) {
+    fn push_single(&mut self, i: usize, row: &StencilRow, places: &[u32]) {
         self.single.push(i as u32);
         self.column.extend(row.iter().map(|(shift, _)| places[(i as i32 + shift) as usize]));
         self.value.extend(row.iter().map(|(_, value)| *value));
@@ -212,8 +212,8 @@ fn alone<S: Simd>(simd: S, q: &Nodes, column: &[u32], value: &[f64]) -> [f64; 4]
 }
 
 /// True if eight nodes from `first` on have neighbours at the same shifts.
-fn stretch(rows: &[Row], first: usize) -> bool {
-    let alike = |a: &Row, b: &Row| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.0 == b.0);
+fn stretch(rows: &[StencilRow], first: usize) -> bool {
+    let alike = |a: &StencilRow, b: &StencilRow| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.0 == b.0);
     match rows.get(first..first + LANES) {
         Some(eight) => !eight[0].is_empty() && eight.iter().all(|row| alike(row, &eight[0])),
         None => false,
@@ -221,7 +221,7 @@ fn stretch(rows: &[Row], first: usize) -> bool {
 }
 
 /// All shifts of the eight nodes from `first` on; `None` if one of them leads beyond the patch.
-fn shifts(rows: &[Row], first: usize) -> Option<Vec<i32>> {
+fn shifts(rows: &[StencilRow], first: usize) -> Option<Vec<i32>> {
     let eight = rows.get(first..first + LANES)?;
     let mut all: Vec<i32> = eight.iter().flatten().map(|entry| entry.0).collect();
     all.sort_unstable();

@@ -8,24 +8,24 @@ use super::model::{ElementSides, FileContent, FileSection, Instance, NamedSet, O
 use crate::vec3::{V3, add, cross, dot, norm, scale, sub};
 
 /// A fault, and its line.
-type Fault = (usize, String);
+type LineFault = (usize, String);
 /// A node or an element: its instance and its number there.
-type Item = (usize, u64);
+type NumberedItem = (usize, u64);
 
-fn at(line: usize) -> impl Fn(String) -> Fault {
+fn at(line: usize) -> impl Fn(String) -> LineFault {
     move |message| (line, message)
 }
 
 /// Sets by instance, kind and name in capitals.
-type Sets = HashMap<(usize, bool, String), Vec<Item>>;
+type Sets = HashMap<(usize, bool, String), Vec<NumberedItem>>;
 
 #[derive(Default)]
 struct MeshAssembly {
     builder: Builder,
-    nodes: HashMap<Item, u32>,
+    nodes: HashMap<NumberedItem, u32>,
     /// Nodes in the order of the mesh.
-    items: Vec<Item>,
-    elements: HashMap<Item, (Vec<u32>, String)>,
+    items: Vec<NumberedItem>,
+    elements: HashMap<NumberedItem, (Vec<u32>, String)>,
     sets: Sets,
     /// More than one instance has elements: names need theirs.
     several: bool,
@@ -46,7 +46,7 @@ pub(super) fn mesh(model: &FileContent, scan: &mut Scan) -> Result<MeshFile, Str
 }
 
 impl MeshAssembly {
-    fn all(&mut self, model: &FileContent) -> Result<(), Fault> {
+    fn all(&mut self, model: &FileContent) -> Result<(), LineFault> {
         for (what, line) in model.ignored.iter() {
             self.builder.ignore(what, *line);
         }
@@ -64,7 +64,7 @@ impl MeshAssembly {
             for group in &model.bodies[model.instances[i].body].groups {
                 let found = self.members(model, i, group).map_err(at(group.line))?;
                 let all = self.sets.entry((i, group.of_elements, group.name.to_ascii_uppercase())).or_default();
-                let known: HashSet<Item> = all.iter().copied().collect();
+                let known: HashSet<NumberedItem> = all.iter().copied().collect();
                 all.extend(found.into_iter().filter(|item| !known.contains(item)));
             }
         }
@@ -77,13 +77,13 @@ impl MeshAssembly {
         Ok(())
     }
 
-    fn numbers(&mut self, model: &FileContent) -> Result<(), Fault> {
+    fn numbers(&mut self, model: &FileContent) -> Result<(), LineFault> {
         for (i, _, element) in model.each(|body| &body.elements) {
             let corner = |n: &u64| {
                 let found = self.nodes.get(&(i, *n)).copied();
                 found.ok_or_else(|| (element.line, format!("node {n} does not exist")))
             };
-            let corners = element.nodes.iter().map(corner).collect::<Result<Vec<u32>, Fault>>()?;
+            let corners = element.nodes.iter().map(corner).collect::<Result<Vec<u32>, LineFault>>()?;
             if self.elements.insert((i, element.number), (corners, String::new())).is_some() {
                 return Err((element.line, format!("element {} is there twice; renumber one", element.number)));
             }
@@ -91,7 +91,7 @@ impl MeshAssembly {
         Ok(())
     }
 
-    fn members(&self, model: &FileContent, scope: usize, group: &NamedSet) -> Result<Vec<Item>, String> {
+    fn members(&self, model: &FileContent, scope: usize, group: &NamedSet) -> Result<Vec<NumberedItem>, String> {
         let scope = group.instance.as_deref().map_or(Ok(scope), |name| instance(model, name))?;
         let (mut found, mut seen) = (Vec::new(), HashSet::new());
         for member in &group.members {
@@ -107,7 +107,7 @@ impl MeshAssembly {
                     continue;
                 }
             };
-            let known = |item: &Item| match group.of_elements {
+            let known = |item: &NumberedItem| match group.of_elements {
                 true => self.elements.contains_key(item),
                 false => self.nodes.contains_key(item),
             };
@@ -122,10 +122,11 @@ impl MeshAssembly {
     }
 
     /// The numbers of a generated range that exist.
-    fn range(&self, scope: usize, of_elements: bool, [first, last, step]: [u64; 3]) -> Vec<Item> {
-        let within =
-            |item: &Item| item.0 == scope && (first..=last).contains(&item.1) && (item.1 - first).is_multiple_of(step);
-        let mut found: Vec<Item> = match of_elements {
+    fn range(&self, scope: usize, of_elements: bool, [first, last, step]: [u64; 3]) -> Vec<NumberedItem> {
+        let within = |item: &NumberedItem| {
+            item.0 == scope && (first..=last).contains(&item.1) && (item.1 - first).is_multiple_of(step)
+        };
+        let mut found: Vec<NumberedItem> = match of_elements {
             true => self.elements.keys().copied().filter(within).collect(),
             false => self.nodes.keys().copied().filter(within).collect(),
         };
@@ -134,7 +135,13 @@ impl MeshAssembly {
     }
 
     /// A set by its name, or by `INSTANCE.NAME`; or one item as `INSTANCE.NUMBER`.
-    fn named(&self, model: &FileContent, scope: usize, of_elements: bool, name: &str) -> Result<Vec<Item>, String> {
+    fn named(
+        &self,
+        model: &FileContent,
+        scope: usize,
+        of_elements: bool,
+        name: &str,
+    ) -> Result<Vec<NumberedItem>, String> {
         if let Ok(number) = name.parse() {
             return Ok(vec![(scope, number)]);
         }
@@ -151,7 +158,7 @@ impl MeshAssembly {
     }
 
     /// Elements by section, else by the set of their keyword line, else by instance.
-    fn parts(&mut self, model: &FileContent) -> Result<(), Fault> {
+    fn parts(&mut self, model: &FileContent) -> Result<(), LineFault> {
         let mut turned = Vec::new();
         for (i, inst, FileSection { set, orientation, line }) in model.each(|body| &body.sections) {
             let items = self.named(model, i, true, set).map_err(at(*line))?;
@@ -220,7 +227,7 @@ impl MeshAssembly {
 
     /// The parts that a surface covers, and on which side.
     fn surface(&self, model: &FileContent, scope: usize, sides: &ElementSides) -> Result<Surface, String> {
-        let mut covered: HashMap<(String, bool), HashSet<Item>> = HashMap::new();
+        let mut covered: HashMap<(String, bool), HashSet<NumberedItem>> = HashMap::new();
         let mut fault = None;
         for (set, side) in &sides.rows {
             let back = match side.as_str() {
