@@ -11,7 +11,7 @@ use std::sync::Mutex;
 
 /// Answer of a command.
 #[derive(Debug, Default)]
-pub struct Asked {
+pub struct CommandAnswer {
     /// For readers.
     pub text: String,
     /// For programs; null of a command that has none.
@@ -33,7 +33,7 @@ pub struct Asked {
 ///
 /// # Errors
 /// A command or an option that is not known; the errors of the command.
-pub fn ask(typed: &[String], progress: Progress) -> Result<Asked, CompareError> {
+pub fn ask(typed: &[String], progress: Progress) -> Result<CommandAnswer, CompareError> {
     let cli = asked(typed).map_err(|error| refused(&error, "see ibr --help"))?;
     let (written, interrupt) = (Mutex::new(false), Interrupt::new());
     let mut context = Context {
@@ -56,5 +56,5 @@ pub fn ask(typed: &[String], progress: Progress) -> Result<Asked, CompareError> 
         other => CompareError::refused(other.to_string(), other.help().unwrap_or_default()),
     })?;
     let warnings = outcome.notes.iter().filter_map(|note| note.strip_prefix("warning: ")).map(String::from).collect();
-    Ok(Asked { text: outcome.text, json: outcome.json.unwrap_or_default(), warnings })
+    Ok(CommandAnswer { text: outcome.text, json: outcome.json.unwrap_or_default(), warnings })
 }

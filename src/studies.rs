@@ -2,7 +2,7 @@
 
 use compare::{CompareError, ScenarioFile};
 use fem::case::{SHIPPED_CASES, shipped_case};
-use fem::session::Source;
+use fem::session::RunSource;
 use models::scenario::ROBOTS;
 use spelling::files::{MOST_TEXT, read_whole};
 use std::path::Path;
@@ -76,16 +76,16 @@ pub fn robots() -> Vec<&'static str> {
 ///
 /// # Errors
 /// Nothing of that name, or no text.
-pub fn fe_source(spec: &str) -> Result<Source, CompareError> {
+pub fn fe_source(spec: &str) -> Result<RunSource, CompareError> {
     let path = Path::new(spec);
     let cause = match (read_whole(path, MOST_TEXT), shipped_case(spec).or(models::shipped(spec)).or(study(spec))) {
-        (Err(_), Some(text)) if !path.exists() => return Ok(Source::new(spec, text)),
+        (Err(_), Some(text)) if !path.exists() => return Ok(RunSource::new(spec, text)),
         (Err(cause), _) => cause.to_string(),
         (Ok(bytes), _) => match String::from_utf8(bytes) {
             Ok(text) if text.trim().is_empty() => "the file is empty".to_string(),
             Ok(text) => {
                 let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
-                return Ok(Source { folder, ..Source::new(spec, &text) });
+                return Ok(RunSource { folder, ..RunSource::new(spec, &text) });
             }
             Err(_) => "it is not a text in UTF-8".to_string(),
         },

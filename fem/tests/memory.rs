@@ -2,7 +2,7 @@
 #![cfg(target_os = "linux")]
 #![allow(clippy::unwrap_used)] // a test that cannot be set up must fail
 
-use fem::session::{RunSettings, Source, least_bytes, simulate};
+use fem::session::{RunSettings, RunSource, least_bytes, simulate};
 use std::ops::ControlFlow;
 
 /// Largest memory of this process so far \[bytes\].
@@ -21,10 +21,10 @@ fn what_is_said_before_a_run_is_a_lower_bound_of_what_it_takes() {
     let tube = fem::case::shipped_case("tube").unwrap();
     let tube = tube.replace("elements_around = 48", "elements_around = 150");
     let tube = tube.replace("elements_along = 72", "elements_along = 300");
-    let cpam = Source::new("cpam", models::shipped("cpam").unwrap());
+    let cpam = RunSource::new("cpam", models::shipped("cpam").unwrap());
     let cpam = cpam.with(&fem::session::mesh_keys(&[1.3; 2])).unwrap();
     let program = peak();
-    for source in [Source::new("tube", &tube), cpam] {
+    for source in [RunSource::new("tube", &tube), cpam] {
         let folder = tempfile::tempdir().unwrap();
         let settings =
             RunSettings { folder: Some(folder.path().join("run")), end_s: Some(2e-5), ..RunSettings::default() };

@@ -4,7 +4,7 @@
 
 use fem::Mesh;
 use fem::mesh::file::read;
-use fem::session::{Solver, Source, export};
+use fem::session::{RunSource, Solver, export};
 
 const FILM: &str = "[fabric.film]\nlaw = \"isotropic\"\ne_MPa = 588\nnu = 0.4\nthickness_mm = 0.3\n\
                     [part.all]\nfabric = \"film\"\ndensity_kg_m3 = 1000\n";
@@ -13,7 +13,7 @@ const FILM: &str = "[fabric.film]\nlaw = \"isotropic\"\ne_MPa = 588\nnu = 0.4\nt
 fn an_exported_robot_is_read_back_as_it_is() {
     let folder = tempfile::tempdir().unwrap();
     for name in ["epam", "fpam"] {
-        let robot = Source::new(name, models::shipped(name).unwrap());
+        let robot = RunSource::new(name, models::shipped(name).unwrap());
         let mesh = robot.load().unwrap().case.problem.mesh;
         let path = folder.path().join(format!("{name}.inp"));
         let export = export(&robot, &path, Solver::Abaqus).unwrap();
@@ -58,7 +58,7 @@ fn an_exported_part_is_the_plate_of_the_same_stiffness() {
         let mesh = "kind = \"fem\"\n[mesh]\ngenerator = \"pillow\"\nside_mm = 300\nelements = 4\n";
         let pressure =
             "[chamber.air]\nsmooth_s_kPa = [[0, 0], [0.05, 5]]\n[[support]]\nset = \"centre_top\"\naxes = \"xy\"\n";
-        let source = Source::new("pillow", &format!("{mesh}{film}{pressure}"));
+        let source = RunSource::new("pillow", &format!("{mesh}{film}{pressure}"));
         let path = folder.path().join(format!("{share}.inp"));
         export(&source, &path, Solver::Abaqus).unwrap();
         let text = std::fs::read_to_string(&path).unwrap();
@@ -81,12 +81,12 @@ fn an_exported_part_is_the_plate_of_the_same_stiffness() {
 fn calculix_gets_short_numbers_middles_of_sides_and_hinges_between_sheets() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("deck.inp");
-    let deck = |source: &Source, solver| {
+    let deck = |source: &RunSource, solver| {
         let export = export(source, &path, solver).unwrap();
         (std::fs::read_to_string(&path).unwrap(), export.left_out)
     };
     // The end of the ePAM has coordinates of 1e-18 m and of 17 digits.
-    let robot = Source::new("epam", models::shipped("epam").unwrap());
+    let robot = RunSource::new("epam", models::shipped("epam").unwrap());
     for solver in [Solver::Abaqus, Solver::CalculiX] {
         let (text, _) = deck(&robot, solver);
         let rows = text.lines().filter(|line| !line.starts_with('*') && line.contains(','));
@@ -98,7 +98,7 @@ fn calculix_gets_short_numbers_middles_of_sides_and_hinges_between_sheets() {
     let film = format!("{FILM}bending_factor = 1\n");
     let mesh = "kind = \"fem\"\n[mesh]\ngenerator = \"pillow\"\nside_mm = 300\nelements = 4\n";
     let loads = "[chamber.air]\nsmooth_s_kPa = [[0, 0], [0.05, 5]]\n[[support]]\nset = \"rim\"\naxes = \"z\"\n";
-    let source = Source::new("pillow", &format!("{mesh}{film}{loads}[contact]\n"));
+    let source = RunSource::new("pillow", &format!("{mesh}{film}{loads}[contact]\n"));
     let (text, left_out) = deck(&source, Solver::CalculiX);
     let block = |begin: &str| -> Vec<Vec<f64>> {
         let rows = text.lines().skip_while(|line| !line.starts_with(begin)).skip(1);
@@ -144,7 +144,7 @@ fn calculix_gets_directions_of_its_own_for_every_element_of_a_curved_fabric() {
     let cloth = "[fabric.\"my cloth\"]\nlaw = \"orthotropic\"\ne0_MPa = 400\ne90_MPa = 100\ng_MPa = 40\nnu12 = 0.2\n\
                  thickness_mm = 0.2\n[part.all]\nfabric = \"my cloth\"\ndensity_kg_m3 = 1000\nbending_factor = 1\n\
                  [chamber.body]\npressure_kPa = 5\n";
-    let export = export(&Source::new("tube", &format!("{mesh}{cloth}")), &path, Solver::CalculiX).unwrap();
+    let export = export(&RunSource::new("tube", &format!("{mesh}{cloth}")), &path, Solver::CalculiX).unwrap();
     let text = std::fs::read_to_string(&path).unwrap();
     assert!(export.left_out.iter().any(|what| what.contains("want to be flat")), "{:?}", export.left_out);
     let constants = after(&text, "*ELASTIC, TYPE=ENGINEERING CONSTANTS");

@@ -6,7 +6,7 @@
 #![allow(clippy::unwrap_used)] // a test that cannot be set up must fail
 
 use fem::mesh::check::check_open;
-use fem::session::{RunSettings, Source, simulate};
+use fem::session::{RunSettings, RunSource, simulate};
 use fem::{Mesh, Problem};
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -14,12 +14,12 @@ use std::path::Path;
 const FILM: &str = "[fabric.film]\nlaw = \"isotropic\"\ne_MPa = 588\nnu = 0.4\nthickness_mm = 0.3\n\
                     [part.all]\nfabric = \"film\"\ndensity_kg_m3 = 1000\n";
 
-fn source(folder: &Path, mesh: &str, rest: &str) -> Source {
+fn source(folder: &Path, mesh: &str, rest: &str) -> RunSource {
     let text = format!("kind = \"fem\"\n[mesh]\n{mesh}\n{FILM}{rest}[output]\nframes = false\npictures = false\n");
-    Source { folder: folder.into(), ..Source::new("case.toml", &text) }
+    RunSource { folder: folder.into(), ..RunSource::new("case.toml", &text) }
 }
 
-fn shipped(mesh: &str, rest: &str) -> Source {
+fn shipped(mesh: &str, rest: &str) -> RunSource {
     source(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/meshes"), mesh, rest)
 }
 

@@ -3,15 +3,15 @@
 #![allow(clippy::unwrap_used)] // a test that cannot be set up must fail
 
 use fem::FemError;
-use fem::session::{FeRun, RunJob, RunSettings, Source, simulate, simulate_all};
+use fem::session::{FeRun, RunJob, RunSettings, RunSource, simulate, simulate_all};
 use std::ops::ControlFlow;
 use std::path::Path;
 
 /// A pillow of few elements that is hardly filled.
-fn small() -> Source {
+fn small() -> RunSource {
     let text = fem::case::shipped_case("pillow").unwrap();
     let text = text.replace("elements = 32 ", "elements = 8 ").replace("end_s = 0.15", "end_s = 0.01");
-    Source::new("pillow", &text.replace("output_every_s = 0.005", "output_every_s = 0.002"))
+    RunSource::new("pillow", &text.replace("output_every_s = 0.005", "output_every_s = 0.002"))
 }
 
 fn into(folder: &Path) -> RunSettings {
@@ -78,7 +78,7 @@ fn the_same_problem_is_run_once_and_found_again() {
 fn an_error_says_file_line_and_what_to_type() {
     let text = small().text.replace("elements = 8 ", "element = 8 ");
     let line = text.lines().position(|line| line.contains("element = 8")).unwrap() + 1;
-    let refused = simulate(&Source::new("my.toml", &text), &RunSettings::default(), &mut go_on).unwrap_err();
+    let refused = simulate(&RunSource::new("my.toml", &text), &RunSettings::default(), &mut go_on).unwrap_err();
     assert!(refused.to_string().starts_with(&format!("my.toml:{line}: ")), "{refused}");
     assert!(refused.help().unwrap().contains("elements"), "{:?}", refused.help());
 }
@@ -110,9 +110,9 @@ fn a_run_that_goes_on_from_another_keeps_time_shape_and_books() {
     let folder = tempfile::tempdir().unwrap();
     let place = |name: &str| folder.path().join(name);
     let energy = |run: &FeRun, name: &str| run.summary.ledger.iter().find(|r| r.name == name).map(|r| r.energy_j);
-    let longer = Source { text: small().text.replace("end_s = 0.01", "end_s = 0.02"), ..small() };
+    let longer = RunSource { text: small().text.replace("end_s = 0.01", "end_s = 0.02"), ..small() };
     let heavy = "[gravity]\ng_m_s2 = [0, 0, -90]\nlinear_s = [[0.01, 0], [0.012, 1]]\n[output]";
-    let heavy = Source { text: longer.text.replace("[output]", heavy), ..small() };
+    let heavy = RunSource { text: longer.text.replace("[output]", heavy), ..small() };
     simulate(&small(), &into(&place("first")), &mut go_on).unwrap();
     let straight = simulate(&longer, &into(&place("straight")), &mut go_on).unwrap();
     let same = simulate(&longer, &from(&place("first"), &place("same")), &mut go_on).unwrap();
@@ -124,7 +124,7 @@ fn a_run_that_goes_on_from_another_keeps_time_shape_and_books() {
     // Weight that only the second run has works on it alone, and the third keeps that work when the weight is gone.
     let pulled = simulate(&heavy, &from(&place("first"), &place("heavy")), &mut go_on).unwrap();
     assert!(pulled.summary.residual_share < 1e-3 && pulled.notices.is_empty(), "{:?}", pulled.notices);
-    let last = Source { text: longer.text.replace("end_s = 0.02", "end_s = 0.022\nguard_hourglass = 1"), ..small() };
+    let last = RunSource { text: longer.text.replace("end_s = 0.02", "end_s = 0.022\nguard_hourglass = 1"), ..small() };
     let light = simulate(&last, &from(&place("heavy"), &place("light")), &mut go_on).unwrap();
     assert!(light.notices[0].contains("gravity [m/s²] jumps from -90"), "{:?}", light.notices);
     assert_eq!(energy(&light, "earlier loads"), energy(&pulled, "gravity"));
@@ -138,7 +138,7 @@ fn a_run_of_another_structure_or_an_earlier_end_cannot_go_on() {
     let folder = tempfile::tempdir().unwrap();
     let first = folder.path().join("first");
     simulate(&small(), &into(&first), &mut go_on).unwrap();
-    let thin = Source { text: small().text.replace("thickness_mm = 0.6", "thickness_mm = 0.5"), ..small() };
+    let thin = RunSource { text: small().text.replace("thickness_mm = 0.6", "thickness_mm = 0.5"), ..small() };
     for (source, words) in [(thin, "its mesh, fabrics"), (small(), "cannot end at 0.01 s")] {
         let refused = simulate(&source, &from(&first, &folder.path().join("second")), &mut go_on).unwrap_err();
         assert!(refused.to_string().contains(words) && refused.help().is_some(), "{refused}");

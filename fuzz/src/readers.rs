@@ -4,7 +4,7 @@ use data::import::{FilePlace, ImportOptions, Scale, import, read_board};
 use data::{CouponDefaults, ReadOptions};
 use fem::case::{Case, shipped_case};
 use fem::mesh::file::MeshFile;
-use fem::session::{FileHash, MANIFEST, Maker, Manifest, SUMMARY, Source, Summary};
+use fem::session::{FileHash, MANIFEST, Maker, Manifest, RunSource, SUMMARY, Summary};
 use fem::{FemError, Simulation};
 use models::{Loads, Model, Scenario};
 use std::path::{Path, PathBuf};
@@ -280,7 +280,7 @@ fn robots() -> Vec<Vec<u8>> {
 }
 
 fn robot(bytes: &[u8]) -> bool {
-    std::str::from_utf8(bytes).is_ok_and(|text| Source::new("robot.toml", text).robot_run().is_ok())
+    std::str::from_utf8(bytes).is_ok_and(|text| RunSource::new("robot.toml", text).robot_run().is_ok())
 }
 
 fn mesh(bytes: &[u8]) -> bool {

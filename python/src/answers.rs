@@ -128,7 +128,7 @@ impl Whole {
 
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
-pub(crate) struct DiagnosisRequest {
+pub(crate) struct Asked {
     sigma_mm: Option<f64>,
     tolerance_mm: Option<f64>,
     refit: bool,
@@ -136,7 +136,7 @@ pub(crate) struct DiagnosisRequest {
     without: Vec<String>,
 }
 
-impl DiagnosisRequest {
+impl Asked {
     fn options(self) -> DiagnosisOptions {
         DiagnosisOptions {
             sigma_m: metres(self.sigma_mm),
@@ -160,7 +160,7 @@ pub(crate) fn diagnose(
     py: Python<'_>,
     scenario: &Scenario,
     data: Vec<PyRef<'_, Data>>,
-    asked: DiagnosisRequest,
+    asked: Asked,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Answer> {
     let (file, evidence, options) = (ScenarioFile::clone(scenario.file()?), all_evidence(&data), asked.options());
@@ -208,7 +208,7 @@ pub(crate) fn add(
     scenario: &Scenario,
     effect: &str,
     data: Vec<PyRef<'_, Data>>,
-    asked: DiagnosisRequest,
+    asked: Asked,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Answer> {
     let (file, evidence) = (scenario.file()?, all_evidence(&data));
@@ -227,7 +227,7 @@ pub(crate) fn ladder(
     py: Python<'_>,
     scenario: &Scenario,
     data: Vec<PyRef<'_, Data>>,
-    asked: DiagnosisRequest,
+    asked: Asked,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Answer> {
     let (file, evidence) = (scenario.file()?, all_evidence(&data));

@@ -13,16 +13,16 @@ use std::path::PathBuf;
 
 /// A scenario, or the name or path of a robot or a case.
 #[derive(FromPyObject)]
-pub(crate) enum RunSource<'py> {
+pub(crate) enum Source<'py> {
     Robot(PyRef<'py, Scenario>),
     Named(PathBuf),
 }
 
-impl RunSource<'_> {
+impl Source<'_> {
     fn load(&self) -> PyResult<FeSource> {
         match self {
-            RunSource::Robot(scenario) => scenario.file().map(|file| FeSource::new(&file.name, &file.text)),
-            RunSource::Named(path) => fe_source(&path.to_string_lossy()).map_err(raised),
+            Source::Robot(scenario) => scenario.file().map(|file| FeSource::new(&file.name, &file.text)),
+            Source::Named(path) => fe_source(&path.to_string_lossy()).map_err(raised),
         }
     }
 }
@@ -33,7 +33,7 @@ impl RunSource<'_> {
 #[expect(clippy::too_many_arguments, reason = "what Python passes by name")]
 pub(crate) fn simulate(
     py: Python<'_>,
-    source: RunSource<'_>,
+    source: Source<'_>,
     folder: PathBuf,
     changes: &Bound<'_, PyDict>,
     resume: bool,

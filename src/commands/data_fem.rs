@@ -10,7 +10,7 @@ use compare::study::Generator;
 use compare::study::engines::{EngineRun, of_the_program, runs_of, seed_jobs};
 use compare::study::generate::about;
 use compare::study::seen::seen;
-use fem::session::Source;
+use fem::session::RunSource;
 
 pub(super) fn run(args: &DataFemArgs, context: &mut Context) -> Result<Outcome> {
     check_set_folder(&args.out, context.force)?;
@@ -52,7 +52,7 @@ pub(super) fn run(args: &DataFemArgs, context: &mut Context) -> Result<Outcome> 
 }
 
 /// The robot, at another body pressure if one is named.
-fn robot(args: &DataFemArgs) -> Result<(Source, Scenario)> {
+fn robot(args: &DataFemArgs) -> Result<(RunSource, Scenario)> {
     let mut robot = ibr::fe_source(&args.scenario)?;
     if let Some(text) = &args.body_pressure {
         let [body_kpa] = list("--body-pressure", text, Quantity::Pressure, 1e-3)?[..] else {
@@ -69,7 +69,7 @@ fn robot(args: &DataFemArgs) -> Result<(Source, Scenario)> {
 /// One run for every seed in a folder; missing runs are made there.
 fn made(
     args: &DataFemArgs,
-    robot: &Source,
+    robot: &RunSource,
     scenario: &Scenario,
     kpa: &[f64],
     context: &mut Context,

@@ -8,7 +8,7 @@ use compare::study::engines::{
     BodyVolumes, EngineLine, EnginePair, EngineRun, Engines, all_runs, engines, lines, runs_json, runs_of, seed_jobs,
     stored,
 };
-use fem::session::Source;
+use fem::session::RunSource;
 use ibr::pages::engines_page;
 
 pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome> {
@@ -32,7 +32,7 @@ pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome> 
 }
 
 /// Runs of the folder; missing runs are made there.
-fn made(args: &CompareArgs, robots: &[(Source, Scenario)], context: &mut Context) -> Result<Vec<EngineRun>> {
+fn made(args: &CompareArgs, robots: &[(RunSource, Scenario)], context: &mut Context) -> Result<Vec<EngineRun>> {
     let kpa = args.pressure.as_deref().map(pressures).transpose()?;
     let (jobs, folder) = (seed_jobs(robots, args.seeds, kpa.as_deref())?, args.runs.folder());
     let settings = kept(&folder, context);

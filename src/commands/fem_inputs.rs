@@ -2,13 +2,13 @@
 
 use super::inputs::quantity;
 use crate::prelude::*;
-use fem::session::{RunSettings, Source, rounded};
+use fem::session::{RunSettings, RunSource, rounded};
 use ibr::fe_source;
 
 const PUBLISHED: [&str; 4] = ["spam", "cpam", "epam", "fpam"];
 
 /// Robots as typed and as read, and their entries in the manifest.
-type Robots = (Vec<(Source, Scenario)>, Vec<Input>);
+type Robots = (Vec<(RunSource, Scenario)>, Vec<Input>);
 
 pub(super) fn robots(specs: &[String]) -> Result<Robots> {
     let own: Vec<String> = PUBLISHED.map(String::from).to_vec();

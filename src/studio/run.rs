@@ -3,7 +3,7 @@
 use crate::studies::SMALL_RUN;
 use fem::FemError;
 use fem::robot::Reading;
-use fem::session::{FeRun, RunSettings, Source, simulate};
+use fem::session::{FeRun, RunSettings, RunSource, simulate};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
@@ -92,7 +92,7 @@ impl SharedStand {
 fn run(wish: &RunRequest, stand: &Mutex<Stand>) -> Result<FeRun, FemError> {
     let pressure = ("pressures_kpa".to_string(), format!("[{:?}]", wish.actuator_kpa));
     let coarse = SMALL_RUN.map(|(key, value)| (key.to_string(), value.to_string()));
-    let source = Source::new(&wish.name, &wish.text).with(&[&coarse[..], &[pressure]].concat())?;
+    let source = RunSource::new(&wish.name, &wish.text).with(&[&coarse[..], &[pressure]].concat())?;
     simulate(&source, &RunSettings::default(), &mut |what, share| {
         let mut stand = of(stand);
         if stand.stop {

@@ -2,7 +2,7 @@
 
 use crate::error::CompareError;
 use data::Fault;
-use fem::session::{Source, sha256};
+use fem::session::{RunSource, sha256};
 use models::scenario::{ROBOTS, Setting};
 use models::{Scenario, ScenarioError};
 use spelling::files::{MOST_TEXT, read_whole};
@@ -159,8 +159,8 @@ impl ScenarioFile {
     }
 
     /// For finite elements, with the folder that paths in it count from.
-    pub fn source(&self, folder: &Path) -> Source {
-        Source { text: self.text.clone(), name: self.name.clone(), folder: folder.to_path_buf() }
+    pub fn source(&self, folder: &Path) -> RunSource {
+        RunSource { text: self.text.clone(), name: self.name.clone(), folder: folder.to_path_buf() }
     }
 
     /// SHA-256 of the text, in hex.

@@ -1,6 +1,6 @@
 //! A problem before it runs, as a file for another program.
 
-use super::Source;
+use super::RunSource;
 pub use crate::output::deck::Solver;
 use crate::output::{MeshFrame, deck, vtu};
 use crate::{FemError, Result, Simulation};
@@ -24,7 +24,7 @@ pub struct Export {
 ///
 /// # Errors
 /// [`FemError::Setting`] for another ending, and for a solver that does not read the format; as [`super::simulate`] for the text; [`FemError::Io`].
-pub fn export(source: &Source, path: &Path, solver: Solver) -> Result<Export> {
+pub fn export(source: &RunSource, path: &Path, solver: Solver) -> Result<Export> {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
     if solver != Solver::Abaqus && ending.as_deref() != Some("inp") {
         let message = format!("CalculiX does not read {}", path.display());

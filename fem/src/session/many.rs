@@ -2,7 +2,7 @@
 //! asking twice costs nothing. A finished one is kept, an interrupted one goes on.
 
 use super::together::{shared, together};
-use super::{FeRun, Loaded, Progress, RunSettings, Source, folder, simulate};
+use super::{FeRun, Loaded, Progress, RunSettings, RunSource, folder, simulate};
 use crate::{FemError, Result};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Clone)]
 pub struct RunJob {
     /// Case or scenario that is simulated.
-    pub source: Source,
+    pub source: RunSource,
     /// What to call it while it runs.
     pub what: String,
     /// Name of its folder. `None`: by the hash of problem and engine; a finished run of this problem is then taken whatever

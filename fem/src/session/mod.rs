@@ -44,7 +44,7 @@ pub use many::{Many, RunJob, Shard, finished_below, problems, simulate_all, simu
 pub use memory::least_bytes;
 pub use plan::{AS_IT_IS, Changes, Cube, Felt, Variation, cube, felt, mesh_keys, numerics, pressures_in_toml, product};
 pub use run::{FeRun, Further, RunSettings};
-pub use source::{Loaded, Source};
+pub use source::{Loaded, RunSource};
 pub use summary::{
     ChamberEnd, Cost, EnergyLine, KineticShares, MeshQuality, ProbeEnd, ReactionEnd, Rule, SUMMARY, Summary,
 };
@@ -65,7 +65,7 @@ use stepping::Running;
 /// [`FemError::Refused`] for a text that describes no sound problem, before a folder is touched; [`FemError::Folder`] for a
 /// folder that holds something else; [`FemError::StoppedIn`] by a guard; [`FemError::Interrupted`] if `progress` asked to
 /// end: a checkpoint is written then.
-pub fn simulate(source: &Source, settings: &RunSettings, progress: Progress) -> Result<FeRun> {
+pub fn simulate(source: &RunSource, settings: &RunSettings, progress: Progress) -> Result<FeRun> {
     let started = Instant::now();
     let earlier = settings.from.as_deref().map(Earlier::read).transpose()?;
     let mut loaded = source.load_after(earlier.as_ref().map(|earlier| (earlier.time_s, &earlier.end.loads)))?;

@@ -1,6 +1,6 @@
 //! Runs of one robot that differ in mesh, seed, pressure, or in unmeasured numbers.
 
-use super::{Source, rounded};
+use super::{RunSource, rounded};
 use crate::case::range::{DeclaredKey, named};
 use crate::robot::{ASSUMED, Assumed, KEYS, NUMERICAL, RobotRun, RobotSettings, hypercube};
 use crate::{FemError, Result};
@@ -38,9 +38,9 @@ pub fn pressures_in_toml(channels_pa: &[f64; CHANNELS]) -> String {
     if kpa.iter().all(|p| *p == kpa[0]) { kpa[0].to_string() } else { format!("{kpa:?}") }
 }
 
-impl Source {
+impl RunSource {
     /// A robot of one mesh, so that a run's own `case.toml` is that run and no study of several.
-    pub(super) fn of_one_mesh(self) -> Result<Source> {
+    pub(super) fn of_one_mesh(self) -> Result<RunSource> {
         let (_, run) = self.robot_run()?;
         let sizes_mm = [run.settings.body_size_m, run.settings.actuator_size_m].map(|m| rounded(m * 1e3));
         if run.meshes_m.is_empty() { Ok(self) } else { self.with(&mesh_keys(&sizes_mm)) }
@@ -133,7 +133,7 @@ pub type Felt = (&'static Assumed, &'static DeclaredKey<RobotSettings>);
 #[derive(Debug, Clone)]
 pub struct Cube {
     /// Scenario with the element sizes of one mesh.
-    pub base: Source,
+    pub base: RunSource,
     /// Assumed numbers that change this robot, with their keys.
     pub numbers: Vec<Felt>,
     /// A row for every robot: the position of each number in its interval, 0 to 1.
@@ -146,7 +146,7 @@ pub struct Cube {
 ///
 /// # Errors
 /// A scenario that is refused with one of the numbers at an end of its interval.
-pub fn cube(base: Source, known: &[&str], robots: usize) -> Result<Cube> {
+pub fn cube(base: RunSource, known: &[&str], robots: usize) -> Result<Cube> {
     let base = base.of_one_mesh()?;
     let numbers = felt(&base, known)?;
     let shares = hypercube(robots, numbers.len(), CUBE);
@@ -158,7 +158,7 @@ pub fn cube(base: Source, known: &[&str], robots: usize) -> Result<Cube> {
 ///
 /// # Errors
 /// As [`cube`].
-pub fn felt(base: &Source, known: &[&str]) -> Result<Vec<Felt>> {
+pub fn felt(base: &RunSource, known: &[&str]) -> Result<Vec<Felt>> {
     let mut numbers = Vec::new();
     for unknown in ASSUMED {
         let Some(key) = named(KEYS, unknown.key).filter(|key| !known.contains(&key.name)) else { continue };
@@ -198,7 +198,7 @@ mod tests {
     #[test]
     fn numerical_settings_are_a_third_and_three_times_what_the_robot_has() {
         for (robot, mass_factor) in [("epam", 3.6), ("cpam", 2.4)] {
-            let (scenario, run) = Source::new(robot, models::shipped(robot).unwrap()).robot_run().unwrap();
+            let (scenario, run) = RunSource::new(robot, models::shipped(robot).unwrap()).robot_run().unwrap();
             let all = numerics(&scenario, &run).unwrap();
             let written = |label: &str| -> f64 {
                 let found = all.iter().find(|v| v.label == label).unwrap_or_else(|| panic!("{label}"));

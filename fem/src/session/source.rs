@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 /// A text that describes a run, and where it is from.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Source {
+pub struct RunSource {
     /// TOML of a finite element case, or of a robot's scenario with or without `[fem]`.
     pub text: String,
     /// File, or name of what comes with the program: for errors and manifests.
@@ -24,17 +24,17 @@ pub struct Source {
 #[derive(Clone)]
 pub struct Loaded {
     /// File or text from which the case was read.
-    pub source: Source,
+    pub source: RunSource,
     /// Problem and outputs of the case.
     pub case: Case,
     /// The robot, if it is one.
     pub robot: Option<WatchedRobot>,
 }
 
-impl Source {
+impl RunSource {
     /// A text without files next to it.
-    pub fn new(name: &str, text: &str) -> Source {
-        Source { text: text.into(), name: name.into(), folder: PathBuf::new() }
+    pub fn new(name: &str, text: &str) -> RunSource {
+        RunSource { text: text.into(), name: name.into(), folder: PathBuf::new() }
     }
 
     /// Whether it is the scenario of a robot.
@@ -53,20 +53,20 @@ impl Source {
     ///
     /// # Errors
     /// [`FemError::Setting`] if the table cannot be separated from the text around it.
-    pub fn with(&self, changes: &[(String, String)]) -> Result<Source> {
+    pub fn with(&self, changes: &[(String, String)]) -> Result<RunSource> {
         let changes: Vec<(&str, &str)> = changes.iter().map(|(key, value)| (key.as_str(), value.as_str())).collect();
         let text = with_fem(&self.text, &changes).ok_or_else(|| {
             let message = format!("the table [fem] of {} cannot be changed from the command line", self.name);
             FemError::setting(message, "write `[fem]` on a separate line, or set the keys in the file")
         })?;
-        Ok(Source { text, ..self.clone() })
+        Ok(RunSource { text, ..self.clone() })
     }
 
     /// A robot's scenario at another body pressure and with as many pouches of another length as fit into the length of its actuator.
     ///
     /// # Errors
     /// [`FemError::Setting`] for pouches longer than the actuator, and for a text that is not TOML.
-    pub fn varied(&self, body_kpa: f64, pouch_mm: Option<f64>) -> Result<Source> {
+    pub fn varied(&self, body_kpa: f64, pouch_mm: Option<f64>) -> Result<RunSource> {
         let shape = self.robot_run()?.0.actuator;
         let unreadable =
             |_| FemError::setting(format!("{} cannot be changed", self.name), "check the file with ibr predict");
@@ -88,7 +88,7 @@ impl Source {
             set("actuator", "length_mm", mm.into());
             set("actuator", "count", (count as i64).into());
         }
-        Ok(Source { text: all.to_string(), ..self.clone() })
+        Ok(RunSource { text: all.to_string(), ..self.clone() })
     }
 
     /// The case that it describes.

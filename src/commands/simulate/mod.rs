@@ -6,7 +6,7 @@ use crate::cli::SimulateArgs;
 use crate::prelude::*;
 use crate::shown::run::{cost_text, text};
 use fem::FemError;
-use fem::session::{Cost, Export, FeRun, Further, RunSettings, SUMMARY, Solver, Source, Summary, export, simulate};
+use fem::session::{Cost, Export, FeRun, Further, RunSettings, RunSource, SUMMARY, Solver, Summary, export, simulate};
 use ibr::fe_source;
 use ibr::pages::run_plots;
 use plan::RunPlan;
@@ -63,7 +63,7 @@ fn exported(args: &SimulateArgs, plan: &RunPlan, file: &Path, force: bool) -> Re
     Ok(Outcome { text, notes: notices.into_iter().chain(left_out).collect(), ..Outcome::default() })
 }
 
-fn one(args: &SimulateArgs, source: &Source, settings: &RunSettings, context: &mut Context) -> Result<Outcome> {
+fn one(args: &SimulateArgs, source: &RunSource, settings: &RunSettings, context: &mut Context) -> Result<Outcome> {
     let folder = settings.folder.as_deref().unwrap_or(Path::new(""));
     let run = match context.fem(|progress| simulate(source, settings, progress)) {
         Err(FemError::Interrupted { time_s, step, .. }) => {

@@ -5,15 +5,15 @@ use crate::commands::fem_inputs::sizes;
 use crate::commands::inputs::{self, plain};
 use crate::prelude::*;
 use fem::robot::{KEYS, OTHERS};
-use fem::session::{Cube, Source, Variation, cube, mesh_keys, numerics, pressures_in_toml, product, rounded};
+use fem::session::{Cube, RunSource, Variation, cube, mesh_keys, numerics, pressures_in_toml, product, rounded};
 use models::scenario::quantity::parse_pressures;
 
 const PRESSURES: &str = "write for example --pressure 10kPa,20kPa, or with supply channels 20kPa/10kPa";
 
 pub(super) enum RunPlan {
-    Single(Source),
+    Single(RunSource),
     /// Runs that differ in seed, mesh or pressure from the scenario with the common options.
-    Table(Source, Vec<Variation>),
+    Table(RunSource, Vec<Variation>),
     /// A hypercube over the unmeasured numbers.
     Uncertain(Cube),
 }
@@ -32,7 +32,7 @@ impl RunPlan {
     }
 }
 
-pub(super) fn plan(args: &SimulateArgs, source: Source) -> Result<RunPlan> {
+pub(super) fn plan(args: &SimulateArgs, source: RunSource) -> Result<RunPlan> {
     if !source.is_robot() {
         return match robot_option(args) {
             None => Ok(RunPlan::Single(source)),
@@ -87,9 +87,9 @@ fn robot_option(args: &SimulateArgs) -> Option<&'static str> {
     given.iter().find(|(_, given)| *given).map(|(option, _)| *option)
 }
 
-fn changed(source: Source, changes: &[(String, String)]) -> Result<Source> {
+fn changed(source: RunSource, changes: &[(String, String)]) -> Result<RunSource> {
     let file = ScenarioFile::parse(&source.name, &source.text)?.with_in_space(changes)?;
-    Ok(Source { text: file.text, ..source })
+    Ok(RunSource { text: file.text, ..source })
 }
 
 fn setting(text: &str) -> Result<(String, String)> {

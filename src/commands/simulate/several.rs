@@ -5,12 +5,12 @@ use crate::commands::shards::shared;
 use crate::prelude::*;
 use compare::study::uncertain::{Intervals, Member, Uncertain, Varied, Weight};
 use fem::session::{
-    AS_IT_IS, Cube, Heights, RunJob, RunRow, RunSettings, RunTable, SeedGroup, Source, Variation, simulate_all,
+    AS_IT_IS, Cube, Heights, RunJob, RunRow, RunSettings, RunSource, RunTable, SeedGroup, Variation, simulate_all,
 };
 use ibr::pages::{Files, marker_intervals, mesh_plot, what_to_measure};
 use std::collections::BTreeMap;
 
-fn jobs(base: &Source, variations: &[Variation]) -> Result<Vec<RunJob>> {
+fn jobs(base: &RunSource, variations: &[Variation]) -> Result<Vec<RunJob>> {
     let job = |v: &Variation| {
         let (what, folder) = (v.label.clone(), Some(v.label.clone()));
         Ok(RunJob { source: base.with(&v.changes)?, what, folder })
@@ -19,7 +19,7 @@ fn jobs(base: &Source, variations: &[Variation]) -> Result<Vec<RunJob>> {
 }
 
 pub(super) fn table(
-    base: &Source,
+    base: &RunSource,
     variations: &[Variation],
     settings: &RunSettings,
     shards: &ShardArgs,

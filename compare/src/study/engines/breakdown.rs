@@ -5,7 +5,7 @@ use super::{CUTS, Carrier, Energies, EngineRun, SHAPE, and_back, pairs, varied};
 use crate::error::CompareError;
 use crate::study::columns::TextColumn;
 use fem::FemError;
-use fem::session::{RunJob, Source, mesh_keys, rounded};
+use fem::session::{RunJob, RunSource, mesh_keys, rounded};
 use models::Scenario;
 use serde::Serialize;
 
@@ -29,7 +29,7 @@ pub struct Ranges {
 ///
 /// # Errors
 /// [`FemError::Setting`] for pouches longer than the actuator.
-pub fn jobs(robots: &[(Source, Scenario)], ranges: &Ranges) -> Result<Vec<RunJob>, FemError> {
+pub fn jobs(robots: &[(RunSource, Scenario)], ranges: &Ranges) -> Result<Vec<RunJob>, FemError> {
     let mut jobs = Vec::new();
     for (source, scenario) in robots {
         for (body_kpa, pouch_mm) in places(scenario, ranges) {

@@ -4,7 +4,7 @@ use super::{EngineRun, EngineState, ReducedTerm, ensemble, stored};
 use fem::FemError;
 use fem::robot::{Preset, Reading};
 use fem::session::{
-    FeRun, Many, Progress, RunJob, RunSettings, Source, Summary, finished_below, heights_mm, rounded, simulate_all,
+    FeRun, Many, Progress, RunJob, RunSettings, RunSource, Summary, finished_below, heights_mm, rounded, simulate_all,
 };
 use models::Scenario;
 use std::path::Path;
@@ -82,7 +82,7 @@ pub(in crate::study) fn and_back(up: &[f64]) -> Vec<f64> {
 /// # Errors
 /// [`FemError::Setting`] for a scenario whose `[fem]` cannot be changed.
 pub fn seed_jobs(
-    robots: &[(Source, Scenario)],
+    robots: &[(RunSource, Scenario)],
     seeds: u64,
     pressures_kpa: Option<&[f64]>,
 ) -> Result<Vec<RunJob>, FemError> {

@@ -4,7 +4,7 @@ use super::{Kinetic, PaperRun, Peak, mesh_name};
 use crate::study::engines::{as_it_is, as_run, is_paper};
 use crate::study::published::shipped_scenario;
 use fem::FemError;
-use fem::session::{FeRun, RunJob, Source, Summary, finished_below, mesh_keys, rounded};
+use fem::session::{FeRun, RunJob, RunSource, Summary, finished_below, mesh_keys, rounded};
 use models::Scenario;
 use std::path::Path;
 
@@ -21,7 +21,7 @@ const DEPTH: usize = 3;
 /// # Errors
 /// [`FemError::Refused`] for a robot that is not a sound problem.
 pub fn jobs(
-    robots: &[(Source, Scenario)],
+    robots: &[(RunSource, Scenario)],
     meshes: &[[f64; 2]],
     pressures_kpa: Option<&[f64]>,
 ) -> Result<Vec<RunJob>, FemError> {
@@ -40,7 +40,7 @@ pub fn jobs(
 }
 
 /// The scenario's, and those at which the cPAM buckles.
-fn own_pressures((source, scenario): &(Source, Scenario)) -> Result<Vec<f64>, FemError> {
+fn own_pressures((source, scenario): &(RunSource, Scenario)) -> Result<Vec<f64>, FemError> {
     let mut kpa: Vec<f64> = source.robot_run()?.1.pressures_pa.iter().map(|pa| rounded(pa[0] * 1e-3)).collect();
     if scenario.actuator.kind.name == "cpam" {
         kpa.extend(BUCKLING_KPA);
@@ -48,7 +48,12 @@ fn own_pressures((source, scenario): &(Source, Scenario)) -> Result<Vec<f64>, Fe
     Ok(kpa)
 }
 
-fn job((source, scenario): &(Source, Scenario), mesh_mm: [f64; 2], kpa: f64, base: &str) -> Result<RunJob, FemError> {
+fn job(
+    (source, scenario): &(RunSource, Scenario),
+    mesh_mm: [f64; 2],
+    kpa: f64,
+    base: &str,
+) -> Result<RunJob, FemError> {
     let mut changes =
         vec![("model".to_string(), "\"paper\"".to_string()), ("pressures_kpa".into(), format!("[{kpa}]"))];
     changes.extend(mesh_keys(&mesh_mm));
