@@ -1,11 +1,11 @@
 //! A finite element run from its text to its result: the same for a program, a library and a browser.
 //!
 //! ```no_run
-//! use fem::session::{Settings, Source, simulate};
+//! use fem::session::{RunSettings, RunSource, simulate};
 //! use std::ops::ControlFlow;
 //!
-//! let robot = Source::new("epam", models::shipped("epam").unwrap());
-//! let settings = Settings { folder: Some("epam-run".into()), resume: true, ..Settings::default() };
+//! let robot = RunSource::new("epam", models::shipped("epam").unwrap());
+//! let settings = RunSettings { folder: Some("epam-run".into()), resume: true, ..RunSettings::default() };
 //! let run = simulate(&robot, &settings, &mut |what, _share| {
 //!     println!("{what}");
 //!     ControlFlow::Continue(())

@@ -40,9 +40,9 @@ impl RunSource {
     /// Whether it is the scenario of a robot.
     ///
     /// ```
-    /// use fem::session::Source;
-    /// assert!(Source::new("epam", models::shipped("epam").unwrap()).is_robot());
-    /// assert!(!Source::new("pillow", fem::case::shipped_case("pillow").unwrap()).is_robot());
+    /// use fem::session::RunSource;
+    /// assert!(RunSource::new("epam", models::shipped("epam").unwrap()).is_robot());
+    /// assert!(!RunSource::new("pillow", fem::case::shipped_case("pillow").unwrap()).is_robot());
     /// ```
     pub fn is_robot(&self) -> bool {
         let table = |name: &str| self.text.lines().any(|line| line.trim() == name);
