@@ -6,10 +6,10 @@
 //!
 //! ```text
 //! step 0:  1.25 kPa, tip at 0.00 mm
-//! step 1:  2.33 kPa, tip at 6.36 mm
-//! step 2:  4.06 kPa, tip at 36.50 mm
-//! step 3:  5.87 kPa, tip at 59.60 mm
-//! step 4:  5.93 kPa, tip at 60.23 mm
+//! step 1:  2.33 kPa, tip at 5.76 mm
+//! step 2:  4.07 kPa, tip at 35.63 mm
+//! step 3:  5.97 kPa, tip at 60.43 mm
+//! step 4:  5.90 kPa, tip at 59.69 mm
 //! ```
 
 use ibr::models::Target;

@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! actuator.width_mm = 80
-//! pressure_kpa = 5.94
+//! pressure_kpa = 6.028
 //! reached: 2.5 mm from the target
 //! ```
 

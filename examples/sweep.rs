@@ -5,10 +5,10 @@
 //! case; a folder keeps what is computed, so the same call again computes nothing.
 //!
 //! ```text
-//! 40 mm, 10 kPa: tip at 38.7 mm
-//! 40 mm, 30 kPa: tip at 68.4 mm
-//! 60 mm, 10 kPa: tip at 88.4 mm
-//! 60 mm, 30 kPa: tip at 124.7 mm
+//! 40 mm, 10 kPa: tip at 41.2 mm
+//! 40 mm, 30 kPa: tip at 78.4 mm
+//! 60 mm, 10 kPa: tip at 90.6 mm
+//! 60 mm, 30 kPa: tip at 131.6 mm
 //! ```
 
 use ibr::data::table::Column;

@@ -4,9 +4,9 @@
 //! of equal strips bend the robot in the plane at 45°: y = z. One strip alone bends it almost in its own plane.
 //!
 //! ```text
-//! [20.0, 0.0] kPa: outermost marker at y = 74.7, z = 6.2 mm
-//! [20.0, 20.0] kPa: outermost marker at y = 64.9, z = 64.9 mm
-//! [0.0, 20.0] kPa: outermost marker at y = 6.2, z = 74.7 mm
+//! [20.0, 0.0] kPa: outermost marker at y = 80.5, z = 6.7 mm
+//! [20.0, 20.0] kPa: outermost marker at y = 70.1, z = 70.1 mm
+//! [0.0, 20.0] kPa: outermost marker at y = 6.7, z = 80.5 mm
 //! ```
 
 use ibr::Predictor;

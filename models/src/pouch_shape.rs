@@ -1,7 +1,7 @@
 //! What a predicted pose looks like: arm, width and height of the pouches, volumes of actuator and body.
 //!
 //! ```text
-//! a₀ = r (1 − cosθ)      width W − σe (π − 2) a₀      height 2 a₀
+//! a₀ = r (1 − cosθ)      width W − σe (π − 2) q a₀      height 2 a₀
 //! ```
 //! Gussets narrow the width by a law of their own (`gusset.rs`). Volumes are the slopes of the energy by the pressures (`gases.rs`).
 //!
@@ -49,7 +49,9 @@ impl Model {
             let of_length = segment.length_m;
             active_m += of_length;
             shape.arm_m += of_length * (site.linkage.arm_m + site.linkage.arm_growth * stroke.lift);
-            shape.width_m += of_length * (site.shape.width_m - site.side_effects.narrows * stroke.lift - folded);
+            let [q, _] = gusset::side_share(site.shape.width_m, [stroke.lift, 0.0]);
+            let narrowed = q * (site.side_effects.narrows * stroke.lift + folded);
+            shape.width_m += of_length * (site.shape.width_m - narrowed);
             shape.height_m += of_length * 2.0 * stroke.lift;
         }
         for mean in [&mut shape.arm_m, &mut shape.width_m, &mut shape.height_m] {

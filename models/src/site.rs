@@ -351,6 +351,14 @@ impl Site {
         Balance { coordinate: a, curvature, tension, imbalance, d_curvature, weight }
     }
 
+    /// dκ/dM of a state by differences of its balance: the solver's own slopes are secants of the steps that it ended with.
+    pub(crate) fn compliance(&self, state: &SiteState, memory: &[f64]) -> f64 {
+        let Some(actuator) = self.actuator.filter(|_| state.slope < 0.0) else { return state.compliance };
+        let step = DIFFERENCE * (actuator.range.1 - actuator.range.0);
+        let [low, high] = [-step, step].map(|by| self.balance(actuator, state.coordinate + by, &state.loads, memory));
+        -state.weight * (high.curvature - low.curvature) / (high.imbalance - low.imbalance)
+    }
+
     /// dU/da of all actuator-side terms at η = 1, by the chain rule.
     pub(crate) fn actuator_slope(
         &self,
@@ -388,6 +396,8 @@ impl Site {
     }
 }
 
+/// Step of these differences, as a share of the coordinate's range.
+const DIFFERENCE: f64 = 1e-6;
 /// A last step that is smaller than this part of the coordinate is carried along the tangent: its square is below rounding.
 const CARRIED: f64 = 1e-9;
 /// Actuator pressure up to which a pouch is slack \[Pa\]: far below any gauge, far above underflow.

@@ -77,7 +77,8 @@ impl Model {
                 StripSection::new(assembly, i, body_pa).compliance(strips, &bend)?
             } else {
                 let way = [1.0, 0.0, along];
-                outer(way, way).map(|row| row.map(|x| state.compliance * x))
+                let compliance = site.compliance(&state, at.work.history.of_segment(i));
+                outer(way, way).map(|row| row.map(|x| compliance * x))
             };
             let pieces = (state.curvature.abs() * segment.length_m / PIECE).ceil().max(1.0);
             let half_m = 0.5 * segment.length_m / pieces;

@@ -244,7 +244,7 @@ fn an_inverse_has_the_interval_of_the_unmeasured_numbers_and_a_bare_robot_has_no
     let (found, state) = (&answer["pressure_interval"], &answer["states"][0]);
     let [low, high, at] =
         [&found["p_kpa"][0], &found["p_kpa"][1], &state["p_act_kpa"]].map(|kpa| kpa.as_f64().unwrap());
-    assert!(low < at && at < high && found["numbers"].as_array().unwrap().len() == 3, "{found}");
+    assert!(low < at && at < high && found["numbers"].as_array().unwrap().len() == 4, "{found}");
     let bare = Folder::new().run(&["predict", "epam-textbook", "--inverse", "tip=100mm", "--json"]).json("ibr.predict");
     assert!(bare.get("pressure_interval").is_none());
 }

@@ -204,10 +204,18 @@ fn protocols_are_read_or_refused_with_an_example() {
 fn the_published_ladders_go_effect_by_effect() {
     let ladders = published_ladders().unwrap();
     let epam = ladders.iter().find(|l| l.published.kind == "epam").unwrap();
-    let names =
-        ["weld_width", "chord_arm", "displaced_gas", "sealed_sides", "fold_energy", "crimped_sides", "fabric_stretch"];
+    let names = [
+        "weld_width",
+        "chord_arm",
+        "displaced_gas",
+        "sealed_sides",
+        "fold_energy",
+        "crimped_sides",
+        "wrinkled_sheets",
+        "fabric_stretch",
+    ];
     let labels: Vec<String> = names.iter().map(|name| format!("+ {name}")).collect();
-    assert_eq!(epam.rungs[1..8].iter().map(|r| r.label.clone()).collect::<Vec<_>>(), labels);
+    assert_eq!(epam.rungs[1..9].iter().map(|r| r.label.clone()).collect::<Vec<_>>(), labels);
     // A wider weld bends less, none is the bare model.
     let [least, most] = epam.rungs[1].range_m.unwrap();
     assert!(least < epam.rungs[1].y_m && (most - epam.rungs[0].y_m).abs() < 1e-12, "{least} {most}");

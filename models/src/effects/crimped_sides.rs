@@ -7,20 +7,23 @@
 //!
 //! ```text
 //! ∂²S/∂h² = −(v − ψv')/(u'v − uv'),  u = 1 − cosψ,  v = ψ − sinψ     two sheets at ψ = π/2:  k = 4/(4 − π)
-//! F = 2 √(k P̄ D_w b)     E = 2 e F ε per metre     P̄ = P − χ p_b
+//! F = 2 √(k P̄ D_w b)     E = 2 e F (1 − (½π − 1)²) ε per metre     P̄ = P − χ p_b
 //! ```
 //!
-//! F is the compression that folds a beam on the foundation k P̄, and keeps folding it; e the edge restraint of the actuator (1 sealed, 0
+//! The weld follows the chord of the wall, which is narrowest in the middle of a pouch: the way round in the plane of the wall, of slope
+//! (½π − 1) tanφ where the lens has tanφ, spares (½π − 1)² ε. F is the compression that folds a beam on the foundation k P̄, and keeps
+//! folding it; e the edge restraint of the actuator (1 sealed, 0
 //! freed by gussets). D_w of bonded plies is ½ E t · t² for two. The foundation does not depend on a. Folds are short compared with the
-//! pouch, 2π (D_w b/k P̄)^¼ ≪ L, and not yet steep, where F falls slowly. A way round in the plane of the wall, which spares up to a third of
-//! ε, is not subtracted, nor is the bending of the sheets next to the weld added.
+//! pouch, 2π (D_w b/k P̄)^¼ ≪ L, and not yet steep, where F falls slowly. The
+//! bending of the weld in the plane of the wall and of the sheets next to it is left out.
 
 use super::entry::*;
+use crate::gusset::GATHERED;
 use std::f64::consts::PI;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "crimped_sides",
-    formula: "E = 2 F ε per metre, F = 2 √(4/(4 − π) · (P − χ p_b) D_w b)",
+    formula: "E = 2 F (1 − (½π − 1)²) ε per metre, F = 2 √(4/(4 − π) · (P − χ p_b) D_w b)",
     sentence: "The side welds are too long for a pouch that has shortened, so they fold, and bonded plies resist.",
     differs: "The bend comes late and less, most where the pull is weak: at low pressures.",
     remedy: "Look at the sides of a full pouch: one sharp fold each, in its middle. Cut the side welds narrower.",
@@ -36,7 +39,7 @@ pub(super) const ENTRY: Effect = Effect {
             let restraint = site.actuator.map_or(0.0, |actuator| (actuator.edge_restraint)(&site.shape));
             if values[0] * restraint > 0.0 {
                 // Compression of both sides over √P̄ [m √(N)], and χ.
-                let (sides, inner) = (4.0 * restraint * (FOUNDATION * values[0]).sqrt(), site.inner_share);
+                let (sides, inner) = (4.0 * restraint * FOLDED * (FOUNDATION * values[0]).sqrt(), site.inner_share);
                 let law = ENTRY.law(Account::Wall, move |at, force| {
                     let push = sides * (at.p_act_pa - inner * at.p_body_pa).max(0.0).sqrt();
                     force[actuator_q::CONTRACTION] -= push;
@@ -49,5 +52,7 @@ pub(super) const ENTRY: Effect = Effect {
     ..BALANCE
 };
 
+/// Part of the contraction that the way round in the plane of the wall leaves to the folds.
+const FOLDED: f64 = 1.0 - GATHERED * GATHERED;
 /// Curvature of the lost area over the weld's displacement.
 const FOUNDATION: f64 = 4.0 / (4.0 - PI);

@@ -53,6 +53,7 @@ mod tip_load;
 mod tip_spring;
 mod weak_place;
 mod weld_width;
+mod wrinkled_sheets;
 mod wrinkling;
 mod yarn_stretch;
 
@@ -80,6 +81,7 @@ pub const EFFECTS: &[Effect] = &[
     sealed_sides::ENTRY,
     fold_energy::ENTRY,
     crimped_sides::ENTRY,
+    wrinkled_sheets::ENTRY,
     self_contact::ENTRY,
     weak_place::ENTRY,
     wrinkling::ENTRY,
@@ -129,6 +131,7 @@ pub const IN_SPACE: &[&str] = &[
     "sealed_sides",
     "fold_energy",
     "crimped_sides",
+    "wrinkled_sheets",
     "pressure_offset",
     "pressure_loss",
     "body_pressure_offset",

@@ -12,6 +12,9 @@ const STEP_M: f64 = 1e-6;
 /// Compliance of the tip at the equilibrium in `work` \[m/N\]; see `tip_stiffness.rs`.
 pub(crate) fn tip_compliance(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) -> Matrix {
     let mut found = [[0.0; 3]; 3];
+    for i in 0..work.states.len() {
+        work.states[i].compliance = assembly.site(i).compliance(&work.states[i], work.history.of_segment(i));
+    }
     // Symmetric under dead loads (Betti), so a row is a column.
     for (axis, row) in found.iter_mut().enumerate().take(2) {
         for i in 0..work.states.len() {

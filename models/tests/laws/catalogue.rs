@@ -25,6 +25,7 @@ const NAMES: &[&str] = &[
     "sealed_sides",
     "fold_energy",
     "crimped_sides",
+    "wrinkled_sheets",
     "self_contact",
     "weak_place",
     "wrinkling",

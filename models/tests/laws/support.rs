@@ -57,8 +57,17 @@ pub(crate) fn everything(actuator: &str) -> Scenario {
 pub(crate) fn without_cell(scenario: &Scenario) -> Scenario {
     let mut stiff = scenario.clone();
     stiff.effects.retain(|e| {
-        !["yarn_stretch", "glued_face", "flat_ends", "gussets", "sealed_sides", "fold_energy", "crimped_sides"]
-            .contains(&e.name.as_str())
+        ![
+            "yarn_stretch",
+            "glued_face",
+            "flat_ends",
+            "gussets",
+            "sealed_sides",
+            "fold_energy",
+            "crimped_sides",
+            "wrinkled_sheets",
+        ]
+        .contains(&e.name.as_str())
     });
     stiff
 }

@@ -75,6 +75,12 @@ fn pouch(fabric: &PublishedFabric) -> Vec<MechanicsPart> {
             Some(WELD_M.1.map(crimped)),
             "two bonded plies in side welds as wide as the others",
         ),
+        assumed(
+            "wrinkled_sheets",
+            bending(BENDING.0),
+            Some(BENDING.1.map(bending)),
+            "sheets as stiff as in fold_energy; the load of their wrinkles is that of the finite elements",
+        ),
         predicted(
             "fabric_stretch",
             1.0 / (fabric.e0_pa * fabric.thickness_m),
