@@ -2,7 +2,7 @@
 //!
 //! Each section of the lens, half height a, is flat in its middle and closes at either side by a quarter of a circle of radius a. That
 //! takes ½πa of the width of each sheet and spans a. In finite elements of isolated pouches the sides take q times as much of section
-//! and chord: more where they are flat and less as they fill, since fabric beside the seam is slack along the body.
+//! and chord: more where they are flat and less as they fill, since fabric next to the seam is slack along the body.
 //!
 //! ```text
 //! section   half area a W − ½πq a²     chord w = W − (π − 2) q a     a = r (cosφ − cosθ)     r = L/2θ

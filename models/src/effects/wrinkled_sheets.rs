@@ -1,7 +1,7 @@
 //! Wrinkled sheets: fabric that is pressed together wrinkles, and goes on carrying the load at which it does.
 //!
 //! Wrinkles along a tension T, of a length ℓ between the lines that keep the sheet flat, carry a load across T that does not depend on
-//! how deep they are. T and ℓ are those of the finite elements:
+//! how deep they are. T and ℓ are as in the finite elements:
 //!
 //! ```text
 //! N = 2π √(D T)/ℓ per width     T = p_b R

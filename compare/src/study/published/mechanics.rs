@@ -79,7 +79,7 @@ fn pouch(fabric: &PublishedFabric) -> Vec<MechanicsPart> {
             "wrinkled_sheets",
             bending(BENDING.0),
             Some(BENDING.1.map(bending)),
-            "sheets as stiff as in fold_energy; the load of their wrinkles is that of the finite elements",
+            "sheets as stiff as in fold_energy; with the load of wrinkles in finite elements",
         ),
         predicted(
             "fabric_stretch",
