@@ -105,7 +105,8 @@ fn separate_tests_count_as_one_value_each() {
         [(&holds, 21), (&elsewhere, 22)].map(|(holds, seed)| scattered(&truth, &seed.to_string(), holds, 4, seed));
     let first =
         about("[bending]\nstiffness_nm2 = 1.2\nsd_nm2 = 0.03\n[measured.tail_tension]\nmoment_nm = [0.2, 0.03]\n");
-    let second = about("[measured.tail_tension]\nmoment_nm = [0.5, 0.02]\n");
+    let second =
+        about("[bending]\nstiffness_nm2 = 1.6\nsd_nm2 = 0.02\n[measured.tail_tension]\nmoment_nm = [0.5, 0.02]\n");
     let d = diagnosed(&base, &[(&one, Some(&first)), (&other, Some(&second))], &only(&["tail_tension"]));
     let r = Reference::with_tests(&base, &[&one, &other], &[2000.0], [Some([1.2, 0.03]), Some([0.2, 0.03])]);
     let fit = r.with(&["tail_tension"]);
