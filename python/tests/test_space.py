@@ -68,8 +68,8 @@ def test_it_is_drawn_from_two_sides():
     assert ibr.Scenario.named("epam").predict(20).plot().get_ylabel().startswith("y")
 
 
-def test_what_is_planar_is_refused():
+def test_what_is_planar_or_out_of_reach_is_refused():
     robot = ibr.Scenario.named(ROBOT)
-    for ask in (lambda: robot.steer(tip_mm=(290, 130)), lambda: robot.inverse(tip_mm=100)):
+    for ask in (lambda: robot.steer(tip_mm=(290, 130)), lambda: robot.inverse(tip_mm=150)):
         with pytest.raises(ibr.Error):
             ask()
