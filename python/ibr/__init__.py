@@ -3,7 +3,7 @@
     >>> import ibr
     >>> robot = ibr.Scenario.named("epam")
     >>> robot.predict(pressure_kpa=20)
-    State(20.000 kPa: tip 303.07, 114.46 mm, 41.38 deg)
+    State(20.000 kPa: tip 298.17, 120.00 mm, 43.85 deg)
 
 Pressures are gauge pressures in kPa, lengths mm, angles degrees, times seconds; x runs along the undeformed body from
 its base, y towards the actuator. Where a scenario is asked for, a name, a path or a TOML text does; where data are, what
