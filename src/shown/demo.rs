@@ -186,7 +186,7 @@ const ADDED: &str = "Each row adds the mechanism that leaves least. Left-out dat
      stiffness B instead: it follows these data and fails on the others.";
 const BREAKING: &str = "Four published robots: pouches taped onto the body (sPAM), folded (cPAM) or in its wall (ePAM), and a fabric muscle \
      (fPAM). Outermost marker, sideways, in mm: reduced model / finite elements ± scatter of 5 seeds; * over 15 % apart. The \
-     paper's accuracy, 1 − ((model − measured)/model)²: reduced, finite elements at 30 kPa; the paper's own at 10, 20, 30 kPa.";
+     paper's accuracy, 1 − ((model − measured)/model)²: both models at 30 kPa; the paper's own at 10, 20, 30 kPa.";
 
 const ROBOT_PICTURE: [&str; 2] =
     ["robot", "The ePAM at 30 kPa in finite elements; colours are von Mises stress in MPa."];
