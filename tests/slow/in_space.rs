@@ -39,16 +39,16 @@ fn misses(robot: &str, kpa: &[&str]) -> Vec<f64> {
 fn two_strips_bend_alike_in_both_engines() {
     let _alone = alone();
     let found = misses(ibr::studies::study("epam-two-strips").unwrap(), &["10", "20", "20/10", "30", "30/10"]);
-    // The largest was 18.8 % at 30 kPa, where the model bends too little.
-    assert!(found.iter().all(|miss| *miss < 0.20), "{found:?}");
+    // The largest was 10.0 % at 30 kPa, where the model bends too little.
+    assert!(found.iter().all(|miss| *miss < 0.11), "{found:?}");
 }
 
 #[test]
 fn a_helix_bends_alike_in_both_engines_while_it_lies_little_off_the_axis() {
     let _alone = alone();
     let half = ibr::studies::study("epam-helix").unwrap();
-    // 5, 10 and 20 degrees off the axis: the largest were 13.2, 19.7 and 20.8 %, all at 30 kPa, where the model bends too little.
-    for (turns, most) in [("0.125", 0.14), ("0.25", 0.21), ("0.5", 0.22)] {
+    // 5, 10 and 20 degrees off the axis: the largest were 7.6, 15.0 and 16.3 %, all at 30 kPa, where the model bends too little.
+    for (turns, most) in [("0.125", 0.09), ("0.25", 0.16), ("0.5", 0.18)] {
         println!("{turns} turns");
         let robot =
             half.replace("turns = 0.5", &format!("turns = {turns}")).replace("length_mm = 380", "length_mm = 400");
