@@ -12,6 +12,7 @@
 //! the actuator's line of action. One unknown, the actuator's coordinate `a`, decides everything, because every law is
 //! explicit in it; the balance is one scalar equation per place.
 
+mod compliance;
 mod energies;
 mod held;
 mod starts;
@@ -25,7 +26,7 @@ use crate::linkage::{ActuatorPressure, line_tension};
 pub use crate::linkage::{Linkage, SectionLaw};
 use crate::root::{NoRoot, Root, Start, find_root};
 pub use crate::shape::LineShortening;
-use crate::term::{Extreme, Pose, Remembering, Term, actuator_q};
+use crate::term::{Pose, Remembering, Term, actuator_q};
 use crate::weave::Weave;
 use starts::Starts;
 use std::f64::consts::PI;
@@ -351,14 +352,6 @@ impl Site {
         Balance { coordinate: a, curvature, tension, imbalance, d_curvature, weight }
     }
 
-    /// dκ/dM of a state by differences of its balance: the solver's own slopes are secants of the steps that it ended with.
-    pub(crate) fn compliance(&self, state: &SiteState, memory: &[f64]) -> f64 {
-        let Some(actuator) = self.actuator.filter(|_| state.slope < 0.0) else { return state.compliance };
-        let step = DIFFERENCE * (actuator.range.1 - actuator.range.0);
-        let [low, high] = [-step, step].map(|by| self.balance(actuator, state.coordinate + by, &state.loads, memory));
-        -state.weight * (high.curvature - low.curvature) / (high.imbalance - low.imbalance)
-    }
-
     /// dU/da of all actuator-side terms at η = 1, by the chain rule.
     pub(crate) fn actuator_slope(
         &self,
@@ -378,26 +371,12 @@ impl Site {
         -(force[0] + force[1] * stroke.d_contraction + force[2] * stroke.d_volume + force[3] * (d_geometric * gain))
     }
 
-    /// Where a formula of the scenario is largest at these loads, over the curvatures that the search for an equilibrium sees.
-    pub(crate) fn extreme(&self, loads: &SiteLoads) -> Option<Extreme> {
-        let within = match self.actuator {
-            Some(actuator) if self.opening_pa(loads) > SLACK_BELOW_PA => {
-                <[f64; 2]>::from(actuator.range).map(|a| self.geometric(&(actuator.stroke)(&self.shape, a)))
-            }
-            _ => [-self.folded(), self.folded()],
-        };
-        let found = self.body_terms.iter().filter_map(|term| term.extreme(&loads.pose(&[0.0]), within));
-        found.max_by(|a, b| a.moment.total_cmp(&b.moment))
-    }
-
     /// Whether an actuator here is open at these pressures: a flat one has no slope.
     pub(crate) fn is_open(&self, p_body_pa: f64, p_act_pa: f64) -> bool {
         p_act_pa - self.side_effects.closes * p_body_pa > SLACK_BELOW_PA
     }
 }
 
-/// Step of these differences, as a share of the coordinate's range.
-const DIFFERENCE: f64 = 1e-6;
 /// A last step that is smaller than this part of the coordinate is carried along the tangent: its square is below rounding.
 const CARRIED: f64 = 1e-9;
 /// Actuator pressure up to which a pouch is slack \[Pa\]: far below any gauge, far above underflow.

@@ -14,8 +14,8 @@
 //! (½π − 1) tanφ where the lens has tanφ, spares (½π − 1)² ε. F is the compression that folds a beam on the foundation k P̄, and keeps
 //! folding it; e the edge restraint of the actuator (1 sealed, 0
 //! freed by gussets). D_w of bonded plies is ½ E t · t² for two. The foundation does not depend on a. Folds are short compared with the
-//! pouch, 2π (D_w b/k P̄)^¼ ≪ L, and not yet steep, where F falls slowly. The
-//! bending of the weld in the plane of the wall and of the sheets next to it is left out.
+//! pouch, 2π (D_w b/k P̄)^¼ ≪ L, and not yet steep, where F falls slowly. Left
+//! out: bending of the weld in the plane of the wall, and of the sheets next to it.
 
 use super::entry::*;
 use crate::gusset::GATHERED;

@@ -16,7 +16,7 @@
 //! and Q(w) area and moment of area Aȳ of the body's section with a chord w (`section.rs`), with derivatives at the strip's width. The wall
 //! pulls the sides apart with p_b R' cosα, so that their arcs have a radius of a + ρ₀, ρ₀ = p_b R' cosα/2P̄, and end before they are level:
 //! the section then loses ½(4 − π) ρ₀² more, 1 % at P = 5 p_b, which is left out, as is q in the term of A''. Without a body the volume is
-//! largest at 23.7 % of contraction for W = L (36.3 % with free sides): sealed sides cost *stroke* more than volume. Volume and contraction
+//! largest at 23.8 % of contraction for W = L (36.3 % with free sides): sealed sides cost *stroke* more than volume. Volume and contraction
 //! are within 2 % of those finite elements for W/L from ⅔ to 4, and from no robot. Below P = p_b (χ + 1.05 (π − 2) A'/2W),
 //! A' = R' cosα, the body's gas at the sides keeps the pouch flat. a ≤ W/π. `verification::exact::pouch::sealed_volume_m3` is its volume.
 

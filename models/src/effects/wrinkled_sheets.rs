@@ -13,8 +13,7 @@
 //! s, w and R' are arc, chord and radius of the wall's section (`section.rs`), D₀ is the arm, a₀ the half height of the lens in its middle,
 //! e the edge restraint of the actuator (1 sealed); sides with `gussets` are as round, so e is 1 for them too. The wall is shortened by its
 //! actuator, not by loads. The middle of a pouch, which an arc keeps at its length, and the flaps of gussets carry nothing. In a full pouch
-//! the tension is P̄ a₀ and the wrinkles are shorter, so that its sides carry up to three times as much, in finite elements too: 2.4 % of the
-//! tip of the ePAM at 30 kPa.
+//! the tension is P̄ a₀ and the wrinkles are shorter, so that its sides carry up to three times as much. Neither engine has that.
 
 use super::entry::*;
 use crate::fabrics::wrinkling_load_n_per_m;

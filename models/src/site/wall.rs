@@ -1,8 +1,8 @@
 //! The body's side of a place: moments of its wall and of its further terms.
 
-use super::{Site, SiteLoads, SiteState};
+use super::{SLACK_BELOW_PA, Site, SiteLoads, SiteState};
 use crate::root::{NoRoot, Start, find_root};
-use crate::term::{Pose, Term};
+use crate::term::{Extreme, Pose, Term};
 
 impl Site {
     /// By how much the moment of the terms with history has fallen since the state `at` was remembered: their share of the
@@ -14,6 +14,18 @@ impl Site {
         let q = [at.curvature];
         let now = SiteLoads { dt_s: 0.0, ..*loads };
         Some(self.term_force(&loads.pose(&q), memory, false) - self.term_force(&now.pose(&q), memory, false))
+    }
+
+    /// Where a formula of the scenario is largest at these loads, over the curvatures that the search for an equilibrium sees.
+    pub(crate) fn extreme(&self, loads: &SiteLoads) -> Option<Extreme> {
+        let within = match self.actuator {
+            Some(actuator) if self.opening_pa(loads) > SLACK_BELOW_PA => {
+                <[f64; 2]>::from(actuator.range).map(|a| self.geometric(&(actuator.stroke)(&self.shape, a)))
+            }
+            _ => [-self.folded(), self.folded()],
+        };
+        let found = self.body_terms.iter().filter_map(|term| term.extreme(&loads.pose(&[0.0]), within));
+        found.max_by(|a, b| a.moment.total_cmp(&b.moment))
     }
 
     /// Force of all body terms, or of those with history.

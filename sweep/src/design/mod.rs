@@ -28,4 +28,4 @@ mod wish;
 pub use misses::{Miss, misses_of_reading};
 pub use rounds::{Checked, Round, Rounds, StopReason};
 pub use search::{Design, Held, Spread, design};
-pub use wish::{Cost, Wanted, WantedPlace, WantedTurn, Wish};
+pub use wish::{Cost, TargetPlace, TargetTurn, Wanted, Wish};

@@ -19,14 +19,14 @@ pub struct Wanted {
     /// Target angle of the tip \[rad\]; `None`: any.
     pub tip_angle_rad: Option<f64>,
     /// Places that stations of the body pass.
-    pub places: Vec<WantedPlace>,
+    pub places: Vec<TargetPlace>,
     /// By how much stretches of the body turn.
-    pub turns: Vec<WantedTurn>,
+    pub turns: Vec<TargetTurn>,
 }
 
 /// A station and its target position.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WantedPlace {
+pub struct TargetPlace {
     /// Station along the undeformed body \[m\].
     pub s_m: f64,
     /// Target position x, y of the station \[m\].
@@ -35,7 +35,7 @@ pub struct WantedPlace {
 
 /// A stretch and by how much it turns.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WantedTurn {
+pub struct TargetTurn {
     /// Its ends along the undeformed body \[m\].
     pub between_m: [f64; 2],
     /// Angle from one to the other \[rad\].
@@ -242,7 +242,7 @@ fn wanted(raw: &RawWish, length_m: f64) -> Result<Wanted, Wrong> {
     let places = raw.places.iter().map(|place| {
         let RawPlace { s_mm, at_mm: Exactly(at_mm) } = *place.get_ref();
         match on_body(s_mm) && near(at_mm) {
-            true => Ok(WantedPlace { s_m: 1e-3 * s_mm, at_m: at_mm.map(|v| 1e-3 * v) }),
+            true => Ok(TargetPlace { s_m: 1e-3 * s_mm, at_m: at_mm.map(|v| 1e-3 * v) }),
             false => {
                 Err((Some(place.span()), format!("s_mm = {s_mm} is not on the body, or {far}"), "write millimetres"))
             }
@@ -251,7 +251,7 @@ fn wanted(raw: &RawWish, length_m: f64) -> Result<Wanted, Wrong> {
     let turns = raw.turns.iter().map(|turn| {
         let RawTurn { from_mm, to_mm, angle_deg } = *turn.get_ref();
         match on_body(from_mm) && on_body(to_mm) && from_mm < to_mm && angle_deg.abs() <= 720.0 {
-            true => Ok(WantedTurn { between_m: [1e-3 * from_mm, 1e-3 * to_mm], angle_rad: angle_deg.to_radians() }),
+            true => Ok(TargetTurn { between_m: [1e-3 * from_mm, 1e-3 * to_mm], angle_rad: angle_deg.to_radians() }),
             false => {
                 let help = "write from_mm below to_mm, both on the body, and degrees";
                 Err((Some(turn.span()), "a turn of a stretch that is none".to_string(), help))
