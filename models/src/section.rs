@@ -44,6 +44,11 @@ impl CutSection {
         CutSection::new(2.0 * PI * radius_m - width_m, chord_m)
     }
 
+    /// Slope of its area by the chord, R' cosα \[m\]: the hoop tension over p_b that the chord carries.
+    pub(crate) fn by_chord_m(&self) -> f64 {
+        self.radius_m * self.cos
+    }
+
     /// Its area, and the first moment of that about the axis of a body of radius R.
     pub(crate) fn about_axis(&self, radius_m: f64) -> (f64, f64) {
         (self.area_m2, self.area_m2 * (self.centroid_m - radius_m))

@@ -62,6 +62,7 @@ fn row(effect: &Effect) -> String {
 
 /// Protocols as times \[s\] and actuator pressures \[kPa\]; the last state is read.
 const HELD: &[[f64; 2]] = &[[HOLD_S, 30.0]];
+const LOW: &[[f64; 2]] = &[[HOLD_S, 4.0]];
 const LONG: &[[f64; 2]] = &[[60.0, 30.0]];
 const LOWERED: &[[f64; 2]] = &[[5.0, 30.0], [10.0, 15.0]];
 const JUST_LOWERED: &[[f64; 2]] = &[[5.0, 30.0], [5.25, 15.0]];
@@ -74,6 +75,7 @@ const MEANT: &[(&str, &str, &[[f64; 2]])] = &[
     ("end_constraint", "epam-textbook", HELD),
     ("arm_growth", "spam", HELD),
     ("gussets", "cpam", HELD),
+    ("roofed_welds", "epam", LOW),
     ("shear_lock", "fpam-textbook", HELD),
     ("self_contact", "cpam-textbook", HELD),
     ("gauge_drift", "epam", LONG),

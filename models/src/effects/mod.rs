@@ -38,6 +38,7 @@ mod plastic_set;
 mod pressure_loss;
 mod pressure_offset;
 mod regulator_hysteresis;
+mod roofed_welds;
 mod sealed_body;
 mod sealed_sides;
 mod seam_stiffness;
@@ -79,6 +80,7 @@ pub const EFFECTS: &[Effect] = &[
     displaced_gas::ENTRY,
     gussets::ENTRY,
     sealed_sides::ENTRY,
+    roofed_welds::ENTRY,
     fold_energy::ENTRY,
     crimped_sides::ENTRY,
     wrinkled_sheets::ENTRY,
@@ -129,6 +131,7 @@ pub const IN_SPACE: &[&str] = &[
     "displaced_gas",
     "gussets",
     "sealed_sides",
+    "roofed_welds",
     "fold_energy",
     "crimped_sides",
     "wrinkled_sheets",

@@ -112,7 +112,7 @@ impl SealedSides {
     }
 
     /// I₁ and I₂ with their derivatives by θ.
-    fn integrals(&self, theta: f64) -> [[f64; 2]; 2] {
+    pub(super) fn integrals(&self, theta: f64) -> [Sloped; 2] {
         if theta < SERIES_BELOW {
             let (half, t2) = (0.5 * self.length_m, theta * theta);
             let first = half * half * theta * (2.0 / 3.0 - t2 * (2.0 / 15.0 - t2 * 4.0 / 315.0));

@@ -36,7 +36,7 @@ pub enum Untabulated {
     TooRough { at_kpa: f64 },
 }
 
-const OPENING_SAMPLES: usize = 256;
+const CORNER_SAMPLES: usize = 256;
 
 /// What the pieces are made of: the model's answers over u.
 pub(super) struct Sampler<'a> {
@@ -74,18 +74,26 @@ impl Sampler<'_> {
         Ok(self.model.states(&self.state).iter().filter(|state| state.coordinate != 0.0).count())
     }
 
-    pub(super) fn openings(&mut self, range_pa: [f64; 2]) -> Solved<Vec<f64>> {
-        let (mut found, mut before) = (Vec::new(), (range_pa[0], self.open(range_pa[0])?));
-        for i in 1..=OPENING_SAMPLES {
-            let p = range_pa[0] + (range_pa[1] - range_pa[0]) * (i as f64 / OPENING_SAMPLES as f64).powi(3);
-            let now = (p, self.open(p)?);
+    /// Numbers of actuators that are open and of laws that act: the response has a corner where one changes.
+    fn regime(&mut self, p: f64) -> Solved<[usize; 2]> {
+        let open = self.open(p)?;
+        let acting = self.model.ledger(&self.loads(p), &self.state).iter().filter(|row| row.energy_j != 0.0).count();
+        Ok([open, acting])
+    }
+
+    /// Pressures at which the regime changes, and whether the first actuator opens there.
+    pub(super) fn corners(&mut self, range_pa: [f64; 2]) -> Solved<Vec<(f64, bool)>> {
+        let (mut found, mut before) = (Vec::new(), (range_pa[0], self.regime(range_pa[0])?));
+        for i in 1..=CORNER_SAMPLES {
+            let p = range_pa[0] + (range_pa[1] - range_pa[0]) * (i as f64 / CORNER_SAMPLES as f64).powi(3);
+            let now = (p, self.regime(p)?);
             if now.1 != before.1 {
                 let [mut low, mut high] = [before.0, now.0];
-                while high - low > 1e-9 * high {
+                while high - low > 1e-12 * range_pa[1] {
                     let middle = 0.5 * (low + high);
-                    *(if self.open(middle)? == before.1 { &mut low } else { &mut high }) = middle;
+                    *(if self.regime(middle)? == before.1 { &mut low } else { &mut high }) = middle;
                 }
-                found.push(low);
+                found.push((low, before.1[0] == 0 && now.1[0] > 0));
             }
             before = now;
         }
@@ -114,7 +122,7 @@ impl Fitter<'_, '_> {
         if self.misses([low, high], &piece)? {
             let middle = 0.5 * (low + high);
             if middle <= low || middle >= high || 4 * self.coefficients.len() > MOST_BYTES {
-                return Err(Untabulated::TooRough { at_kpa: self.narrowest_pa() / 1e3 });
+                return Err(Untabulated::TooRough { at_kpa: self.narrowest_pa([low, high]) / 1e3 });
             }
             self.cover(middle)?;
             return self.cover(high);
@@ -124,9 +132,11 @@ impl Fitter<'_, '_> {
         Ok(())
     }
 
-    fn narrowest_pa(&self) -> f64 {
+    /// End of the narrowest piece, the one that does not fit among them.
+    fn narrowest_pa(&self, unfit: [f32; 2]) -> f64 {
         let width = |pair: &&[f32]| pair[1] - pair[0];
-        let narrowest = self.edges.windows(2).min_by(|a, b| width(a).total_cmp(&width(b)));
+        let pieces = self.edges.windows(2).chain([&unfit[..]]);
+        let narrowest = pieces.min_by(|a, b| width(a).total_cmp(&width(b)));
         self.sampler.pressure(f64::from(narrowest.map_or(0.0, |pair| pair[1])))
     }
 

@@ -91,16 +91,18 @@ impl Table {
             return Err(Untabulated::Order { low_kpa: low_pa / 1e3, high_kpa: high_pa / 1e3 });
         }
         let mut sampler = Sampler { model, state: model.prediction(), body_pa, open_pa: 0.0, high_pa, outputs: 3 };
-        let openings = sampler.openings(range_pa)?;
+        let corners = sampler.corners(range_pa)?;
+        let opening = corners.iter().find(|(_, opens)| *opens);
         // Where nothing opens it is open all along, or never.
         let unopened = if sampler.open(high_pa)? == 0 { high_pa } else { 0.0 };
-        sampler.open_pa = openings.first().copied().unwrap_or(unopened);
+        sampler.open_pa = opening.map_or(unopened, |(p, _)| *p);
+
         let open_pa = sampler.open_pa;
         if open_pa >= high_pa || channels == 0 {
             return Err(Untabulated::Range { low_kpa: low_pa / 1e3, high_kpa: high_pa / 1e3, open_kpa: open_pa / 1e3 });
         }
         let root = |p: f64| (((p - open_pa) / (high_pa - open_pa)).max(0.0).sqrt()) as f32;
-        let marks: Vec<f32> = openings.iter().map(|p| root(*p)).chain([root(low_pa), 1.0]).collect();
+        let marks: Vec<f32> = corners.iter().map(|(p, _)| root(*p)).chain([root(low_pa), 1.0]).collect();
         let sampler = &mut sampler;
         let mut failed = Untabulated::TooRough { at_kpa: open_pa / 1e3 };
         // Markers that do not fit are left out.

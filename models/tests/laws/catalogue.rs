@@ -23,6 +23,7 @@ const NAMES: &[&str] = &[
     "displaced_gas",
     "gussets",
     "sealed_sides",
+    "roofed_welds",
     "fold_energy",
     "crimped_sides",
     "wrinkled_sheets",

@@ -56,6 +56,8 @@ fn a_typical_effect_changes_the_prediction_of_every_actuator_it_applies_to() {
                 assert_eq!(moved, 0.0, "no other pouch has folds");
             } else if (actuator, effect.name) == ("fpam", "self_contact") {
                 assert_eq!(moved, 0.0, "a muscle does not turn a metre of body by π");
+            } else if effect.name == "roofed_welds" {
+                assert!(moved < 1e-12, "at 30 kPa its welds are chords: {moved:e}");
             } else if ["clock_lag", "regulator_hysteresis"].contains(&effect.name) {
                 assert!(moved < 1e-12, "a hold longer than the lag, on the way up: {moved:e}");
             } else {

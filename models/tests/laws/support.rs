@@ -47,7 +47,13 @@ pub(crate) fn everything(actuator: &str) -> Scenario {
     let in_balance = |e: &&Effect| e.stage == Stage::Balance;
     let all = applicable(&bent).filter(in_balance).fold(bent.clone(), |s, e| s.with_effect(e.name, &e.typical()));
     // At typical sizes an actuator stays flat below about the body's pressure, and there is no balance to look at.
-    let small = [("displaced_gas", 0.02), ("gussets", 0.02), ("sealed_sides", 0.02), ("fold_energy", 1e-8)];
+    let small = [
+        ("displaced_gas", 0.02),
+        ("gussets", 0.02),
+        ("sealed_sides", 0.02),
+        ("roofed_welds", 0.02),
+        ("fold_energy", 1e-8),
+    ];
     let has = |name: &str| all.effects.iter().any(|e| e.name == name);
     small.iter().filter(|(name, _)| has(name)).fold(all.clone(), |s, (name, value)| s.with_effect(name, &[*value]))
 }
@@ -63,6 +69,7 @@ pub(crate) fn without_cell(scenario: &Scenario) -> Scenario {
             "flat_ends",
             "gussets",
             "sealed_sides",
+            "roofed_welds",
             "fold_energy",
             "crimped_sides",
             "wrinkled_sheets",
