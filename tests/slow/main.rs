@@ -1,7 +1,7 @@
 //! Tests that need an optimised build: `cargo test --release --test slow` (`./check.sh` runs it).
 //!
 //! A new test belongs into the module of what it measures or runs to its end: `characterize`, `demo`, `engine` (the finite
-//! element engine against known answers), `interrupts`, `kills`, `learned` (laws that no catalogue has), `simulate`,
+//! element engine against known answers), `interrupts`, `kills`, `learned` (laws that no catalogue has), `low_pressure` (roofs: both engines), `simulate`,
 //! `in_space` (strips round the body: both engines), `large_file`, `open_chamber` (chambers open along an axis), `figures` (speed and known numbers), `documents` (command
 //! lines of the documents). Whatever takes less than a second in an unoptimised build belongs into `tests/fast`.
 
@@ -18,6 +18,7 @@ mod interrupts;
 mod kills;
 mod large_file;
 mod learned;
+mod low_pressure;
 mod open_chamber;
 mod robots;
 mod simulate;

@@ -216,7 +216,7 @@ fn the_published_ladders_go_effect_by_effect() {
         "fabric_stretch",
     ];
     let labels: Vec<String> = names.iter().map(|name| format!("+ {name}")).collect();
-    assert_eq!(epam.rungs[1..9].iter().map(|r| r.label.clone()).collect::<Vec<_>>(), labels);
+    assert_eq!(epam.rungs[1..=names.len()].iter().map(|r| r.label.clone()).collect::<Vec<_>>(), labels);
     // A wider weld bends less, none is the bare model.
     let [least, most] = epam.rungs[1].range_m.unwrap();
     assert!(least < epam.rungs[1].y_m && (most - epam.rungs[0].y_m).abs() < 1e-12, "{least} {most}");

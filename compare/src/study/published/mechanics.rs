@@ -63,6 +63,11 @@ fn pouch(fabric: &PublishedFabric) -> Vec<MechanicsPart> {
         predicted("displaced_gas", 0.5, "half of a lens in the wall is in the body"),
         predicted("gussets", 1.0, "side folds open as far as the diagonals allow which the ends hold"),
         predicted("sealed_sides", 1.0, "the sides are sealed as the ends are; with gussets it does nothing"),
+        predicted(
+            "roofed_welds",
+            1.0,
+            "welds across the wall fold in their middle where the gas of the body lifts them",
+        ),
         assumed(
             "fold_energy",
             bending(BENDING.0),
