@@ -283,7 +283,8 @@ impl Model {
         let (state, h) = (&work.states[index], segment.length_m);
         let mut post = |line, energy: f64| post(line, energy * h);
         let at = Pose { s_m: segment.middle_m(), ..Pose::new(&[], p_body_pa, p_act_pa) };
-        if let Some(actuator) = site.actuator.filter(|_| p_act_pa > 0.0) {
+        // Empty pouches have roofs, an empty muscle has no energy.
+        if let Some(actuator) = site.actuator.filter(|actuator| p_act_pa > 0.0 || actuator.has_pouches()) {
             let stroke = (actuator.stroke)(&site.shape, state.coordinate);
             site.actuator_energies(&stroke, [state.coordinate, state.tension], &at, &mut post);
         }

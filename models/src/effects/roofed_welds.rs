@@ -1,4 +1,4 @@
-//! Roofed welds: where the actuator pulls weakly, the gas of the body lifts the middle of a weld, which stands up as a roof.
+//! Roofed welds: where the actuator pulls weakly, the gas of the body lifts the middle of a weld to a roof.
 //!
 //! Both halves of the weld are straight and climb by γ to a ridge. A roof holds more of the body's gas than a chord, but its sheets, half a
 //! height a above and below it, turn by 2γ at the ridge: that takes 2a tanγ of the width and 4a² tanγ of the section. The sides take more of
@@ -18,9 +18,9 @@
 //! | n | narrowing by the sides of `sealed_sides` over a | - |
 //!
 //! Each function of γ is a parabola through its values at 0, γ₀ and ½γ₀, γ₀ where A is largest, so γ = −c₁/2c₂ and E = −c₁²/4c₂ for c₁ < 0:
-//! within 3 % of the whole functions. One state for every load, which finite elements confirm: the same tips while the pressure rises and
+//! within 3 % of the exact functions. Flat pouches have the energy of the gas in their roofs. One state for every load, which finite elements confirm: the same tips while the pressure rises and
 //! falls. Left out: the arm, which a roof raises (up to 8 % of a bend of a few degrees); the outer sheet's own round over the ridge; a base
-//! that is held round, beside which half a pouch stays a roof.
+//! that is held round, next to which half a pouch stays a roof.
 
 use super::entry::*;
 use super::sealed_sides::SealedSides;
@@ -34,7 +34,7 @@ pub(super) const ENTRY: Effect = Effect {
     formula: "E = min over γ of p_b [(A(0) − A(γ)) L₀ + (2 tanγ A' + n (A' − A'(0))) ∫a dx] + 4 tanγ (P − χ p_b) ∫a²dx per pitch",
     sentence: "The gas of the body lifts the middle of each weld to a roof, and the pouches open only as they pull it flat.",
     differs: "The bend comes late: much is missing below 2.5 times the body's pressure, nothing above.",
-    remedy: "Look along the robot at low pressure: whether its welds are straight or stand up in the middle.",
+    remedy: "Look along the robot at low pressure: whether its welds are straight or rise in the middle.",
     validity: "welds across the wall that fold in their middle",
     reference: "derived here",
     parameters: &[SHARE.means("1: welds that fold in their middle, 0: welds that stay straight")],

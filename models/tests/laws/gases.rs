@@ -110,3 +110,23 @@ fn a_bare_robot_has_the_volumes_of_its_geometry() {
     assert!((found.m3[0] / lens - 1.0).abs() < 1e-9, "{} {lens}", found.m3[0]);
     assert!((found.m3[BODY_GAS] / body - 1.0).abs() < 1e-9, "{} {body}", found.m3[BODY_GAS]);
 }
+
+/// Roofs hold more than chords, from empty pouches on, and nothing once they are flat.
+#[test]
+fn the_body_holds_the_gas_under_its_roofs_also_below_empty_pouches() {
+    let model = Model::new(&full("epam"));
+    let body_m3 =
+        |p_act_pa: f64| model.volumes(&Loads::uniform(2e3, p_act_pa), &mut model.prediction()).unwrap().m3[BODY_GAS];
+    // A wall of 2πR − W and two halves of W/2 in one circle, the largest section that they can have; the chord's is drawn in.
+    let (arc_m, half_m) = (2.0 * PI * 0.04 - 0.06, 0.03);
+    let [mut low, mut high] = [0.03, 0.06];
+    for _ in 0..60 {
+        let radius = 0.5 * (low + high);
+        let is_short = arc_m / radius + 4.0 * f64::asin(0.5 * half_m / radius) > 2.0 * PI;
+        *(if is_short { &mut low } else { &mut high }) = radius;
+    }
+    let (radius, gamma) = (low, f64::asin(0.5 * half_m / low));
+    let largest_m2 = 0.5 * radius * (arc_m + 2.0 * radius * (2.0 * gamma).sin());
+    assert!((body_m3(0.0) / (0.36 * largest_m2) - 1.0).abs() < 2e-3, "{} {}", body_m3(0.0), 0.36 * largest_m2);
+    assert!((body_m3(1.0) / body_m3(0.0) - 1.0).abs() < 1e-6);
+}
