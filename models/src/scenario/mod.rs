@@ -24,6 +24,7 @@ mod choice;
 mod dials;
 mod formulas;
 mod given;
+mod growth;
 mod keys;
 pub mod quantity;
 mod raw;
@@ -34,6 +35,7 @@ mod strips;
 
 pub use choice::ActuatorChoice;
 pub use dials::Dial;
+pub use growth::Growth;
 pub use keys::{KEYS, Key, key, moves_nothing};
 pub use set::Setting;
 pub use spans::Span;

@@ -1,6 +1,7 @@
 //! A scenario in SI units, and its variants.
 
 use super::choice::ActuatorChoice;
+use super::growth::Growth;
 use crate::catalogue::Catalogue;
 use crate::effects::{EFFECTS, Effect, Fitted, IN_SPACE, Parameter};
 use crate::formula::Formula;
@@ -47,6 +48,8 @@ pub struct Scenario {
     pub p_max_pa: f64,
     /// How fast a set pressure arrives, for what happens in time; `None`: at once.
     pub line: Option<Line>,
+    /// Growth by eversion, which moves no pose; `None`: not known.
+    pub growth: Option<Growth>,
     /// Effects that are switched on, in the order of the catalogue.
     pub effects: Effects,
     /// The scenario's own effects, in the order of the text: they follow the catalogue's.
