@@ -17,14 +17,15 @@
 //! | e | distance of the taut tail from the axis: to the line from base to tip, at most R | m |
 //!
 //! The pull of the tail goes through the base, so the column has twice the pinned ends of Euler's: π² EI/ℓ², not a quarter.
-//! Without the effect `gravity` the robot bends in a horizontal plane, ψ = π/2. Friction of weight and of bends is added, which is
-//! at most √2 too much.
+//! Without the effect `gravity` the robot bends in a horizontal plane, ψ = π/2. Friction of weight and of bends is added: at
+//! most √2 too much where the weight is across the plane of the bend, and more where it pulls the tail off the inner side.
 //!
 //! **Validity**: planar robots, inextensible thin tail, quasi-static. **Left out**: what the tail's tension does to the bend, contact
 //! with surroundings, the thickness of the tail, a shorter tail on the inner side of a bend, pressure lost to leaks and to flow.
 //! A unit that is everted in part bends as the others. The sum of terms at the tip is published (Hawkes et al. 2017; Blumenschein et al.
 //! 2017), and so is buckling in retraction (Coad et al. 2020); recalled, not read. Derived here.
 
+use crate::assemble::divide;
 use crate::assembly::Segment;
 use crate::error::{Solved, Unsolved};
 use crate::model::{Model, Prediction};
@@ -62,6 +63,8 @@ impl TailArc {
     }
 }
 
+/// Fewest sections along the robot, at whose middle the tail's place is taken.
+const SECTIONS: usize = 60;
 /// Longest piece of an arc for the quadrature, as turn times (1 + μ): exact to rounding.
 const PIECE: f64 = 0.5;
 
@@ -170,13 +173,15 @@ pub fn grown(scenario: &Scenario, growth: &Growth, loads: &Loads, length_m: f64)
     if !(length_m > 0.0 && length_m <= scenario.length_m) {
         return Err(Unsolved::BadAim { what: "a grown length is above 0 and at most the length of the robot" });
     }
-    let part = Scenario { length_m, markers_m: Vec::new(), ..scenario.clone() };
-    let model = Model::for_few(&part);
+    let segments = scenario.segments.max(SECTIONS);
+    let part = Scenario { length_m, segments, markers_m: Vec::new(), ..scenario.clone() };
+    let spans = part.spans();
+    let model = Model::without_starts(&part, &spans, Some(divide(&spans, segments)));
     let mut at = model.prediction();
     model.predict(loads, &mut at)?;
     let arcs = tail_arcs(&part, &model, &at);
     let p_body_pa = model.body_pa(loads, &at.work);
-    let area_m2 = part.spans().last().map_or(0.0, |span| PI * span.radius_m.powi(2));
+    let area_m2 = spans.last().map_or(0.0, |span| PI * span.radius_m.powi(2));
     let driving_n = 0.5 * p_body_pa * area_m2;
 
     let forth = growth.tensions(arcs.iter().copied(), growth.base_tension_n);
@@ -243,7 +248,7 @@ fn tail_at_m(model: &Model, at: &Prediction, index: usize) -> f64 {
     ((across * x - along * y) / chord_m).clamp(-radius_m, radius_m)
 }
 
-/// Pull through base and tip at which a straight body buckles, that of its weakest stretch \[N\].
+/// Pull through base and tip at which a straight body buckles in its weakest stretch \[N\].
 fn column_n(scenario: &Scenario, p_body_pa: f64) -> Option<f64> {
     let wall = &scenario.wall;
     let of = |span: &Span| {

@@ -18,12 +18,13 @@ pub(super) fn run(args: &GrowArgs) -> Result<Outcome> {
     let loads = args.pressure.as_deref().map_or(Ok(straight), |text| predict::wanted(&scenario, Some(text)))?;
     let states = loads.iter().map(|loads| GrowingState::of(&scenario, &growth, loads)).collect::<Result<Vec<_>>>()?;
     let p_body_kpa = scenario.p_body_pa / 1e3;
-    let mut text = format!("{} at body pressure {p_body_kpa} kPa\n", scenario.name);
+    let name = if scenario.name.is_empty() { &args.robot.scenario } else { &scenario.name };
+    let mut text = format!("{name} at body pressure {p_body_kpa} kPa\n");
     loads.iter().zip(&states).for_each(|(loads, state)| text += &state.text(&scenario, loads));
     text += "Predicted from the scenario's [growth]; bends are those without a tail.\n";
     let answer = GrowAnswer { scenario: &args.robot.scenario, name: &scenario.name, p_body_kpa, states };
     let mut outcome = Outcome::answer(text, "ibr.grow", &answer);
-    if answer.states.iter().any(|state| state.lengths.iter().any(|row| row.retraction == Retraction::Unknown)) {
+    if answer.states.iter().any(GrowingState::is_unknown) {
         let note = "note: the length at which retraction buckles the body needs body.wall_stiffness_n_per_m";
         outcome.notes.push(note.into());
     }
@@ -49,6 +50,11 @@ impl GrowingState {
         })
     }
 
+    /// Whether buckling of some length cannot be computed.
+    fn is_unknown(&self) -> bool {
+        self.lengths.iter().any(|row| row.retraction == Retraction::Unknown)
+    }
+
     fn text(&self, scenario: &Scenario, loads: &Loads) -> String {
         let whole_mm = 1e3 * scenario.length_m;
         let up_to = |mm: f64| match mm {
@@ -66,11 +72,12 @@ impl GrowingState {
             .number("pull to retract [N]", 2, |row| row.retraction_n)
             .words("retraction", retraction_words);
         format!(
-            "\nActuators at {} kPa\n{}Grows: {}. Retracted by its tail: {}.\n",
+            "\nActuators at {} kPa\n{}Grows: {}. Retracted by its tail: {}{}.\n",
             pressure_words(loads),
             table.text(),
             up_to(self.grows_to_mm),
-            up_to(self.retracts_from_mm)
+            up_to(self.retracts_from_mm),
+            if self.is_unknown() { ", if it does not buckle" } else { "" }
         )
     }
 }

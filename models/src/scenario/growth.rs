@@ -2,26 +2,8 @@
 
 use super::given::{Checked, Given, fault};
 use super::raw::Entries;
+use super::stated::Growth;
 use toml::Spanned;
-
-/// What growth by eversion takes, measured on the tube; [`crate::grown`] has its mechanics.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Growth {
-    /// Force Y = ½ P A at which a tube without tail tension halts \[N\].
-    pub tip_force_n: f64,
-    /// Force ½ P A at which it starts from rest, and more than ½ P A by which inverting it starts \[N\].
-    pub break_away_n: f64,
-    /// Coefficient of friction μ of the tail on the wall \[-\].
-    pub friction: f64,
-    /// Weight w of the tail per length \[N/m\].
-    pub tail_weight_n_per_m: f64,
-    /// Pull T₀ of the spool on the tail at the base \[N\].
-    pub base_tension_n: f64,
-    /// Speed v₁ of the tip 1 N beyond the halt \[m/s\]; `None`: not measured.
-    pub speed_at_1n_m_per_s: Option<f64>,
-    /// Exponent n of the speed \[-\].
-    pub exponent: f64,
-}
 
 pub(super) fn growth(table: &Spanned<Entries>) -> Checked<Growth> {
     let given = Given::new("growth", table)?;

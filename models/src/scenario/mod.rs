@@ -35,11 +35,10 @@ mod strips;
 
 pub use choice::ActuatorChoice;
 pub use dials::Dial;
-pub use growth::Growth;
 pub use keys::{KEYS, Key, key, moves_nothing};
 pub use set::Setting;
 pub use spans::Span;
-pub use stated::{BASES, EffectChoice, Effects, Scenario, Wall, Zone};
+pub use stated::{BASES, EffectChoice, Effects, Growth, Scenario, Wall, Zone};
 
 use crate::error::ScenarioError;
 

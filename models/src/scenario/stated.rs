@@ -1,7 +1,6 @@
 //! A scenario in SI units, and its variants.
 
 use super::choice::ActuatorChoice;
-use super::growth::Growth;
 use crate::catalogue::Catalogue;
 use crate::effects::{EFFECTS, Effect, Fitted, IN_SPACE, Parameter};
 use crate::formula::Formula;
@@ -65,6 +64,25 @@ pub struct Wall {
     pub shear_n_per_m: Option<f64>,
     /// How they are known: a word of `basis`; empty without either.
     pub basis: String,
+}
+
+/// What growth by eversion takes, measured on the tube; [`crate::grown`] has its mechanics.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Growth {
+    /// Force Y = ½ P A at which a tube without tail tension halts \[N\].
+    pub tip_force_n: f64,
+    /// Force ½ P A at which it starts from rest, and more than ½ P A by which inverting it starts \[N\].
+    pub break_away_n: f64,
+    /// Coefficient of friction μ of the tail on the wall \[-\].
+    pub friction: f64,
+    /// Weight w of the tail per length \[N/m\].
+    pub tail_weight_n_per_m: f64,
+    /// Pull T₀ of the spool on the tail at the base \[N\].
+    pub base_tension_n: f64,
+    /// Speed v₁ of the tip 1 N beyond the halt \[m/s\]; `None`: not measured.
+    pub speed_at_1n_m_per_s: Option<f64>,
+    /// Exponent n of the speed \[-\].
+    pub exponent: f64,
 }
 
 /// A stretch of the body where something differs from the rest.
