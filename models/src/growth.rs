@@ -29,6 +29,7 @@ use crate::assemble::divide;
 use crate::assembly::Segment;
 use crate::error::{Solved, Unsolved};
 use crate::model::{Model, Prediction};
+use crate::root::halved;
 use crate::scenario::{Growth, Scenario, Span};
 use crate::term::Loads;
 use crate::tip_stiffness::GAUSS;
@@ -65,6 +66,8 @@ impl TailArc {
 
 /// Fewest sections along the robot, at whose middle the tail's place is taken.
 const SECTIONS: usize = 60;
+/// Halvings of the factor of the tensions at which a section folds.
+const HALVINGS: usize = 12;
 /// Longest piece of an arc for the quadrature, as turn times (1 + μ): exact to rounding.
 const PIECE: f64 = 0.5;
 
@@ -148,7 +151,7 @@ pub struct Grown {
     /// Steady speed of the moving tip \[m/s\], 0 where it halts; null without a measured speed.
     #[serde(rename = "speed_mm_per_s", serialize_with = "si::mm")]
     pub speed_m_per_s: Option<f64>,
-    /// Station at which a section folds while it grows \[m\]; null: none.
+    /// Station of the section that folds while it grows \[m\]; null: none.
     #[serde(rename = "growing_folds_mm", serialize_with = "si::mm")]
     pub growing_folds_m: Option<f64>,
     /// Pull at the base that inverts the tip from rest \[N\].
@@ -157,7 +160,7 @@ pub struct Grown {
     pub buckling_n: Option<f64>,
     /// What that pull does.
     pub retraction: Retraction,
-    /// Station at which a section folds under that pull \[m\]; null: none.
+    /// Station of the section that folds first while the pull rises \[m\]; null: none.
     #[serde(rename = "retraction_folds_mm", serialize_with = "si::mm")]
     pub retraction_folds_m: Option<f64>,
 }
@@ -225,13 +228,20 @@ fn tail_arcs(scenario: &Scenario, model: &Model, at: &Prediction) -> Vec<TailArc
     model.curvatures(at).zip(&at.work.headings).map(arc).collect()
 }
 
-/// Middle of the segment whose section is nearest to its limit, where a tail of these tensions folds it \[m\].
+/// Middle of the segment that folds first while the tail's tensions rise together to these; `None` if no segment does \[m\].
 fn fold_m(model: &Model, loads: &Loads, at: &Prediction, tensions: &[f64]) -> Option<f64> {
-    let share = |(i, tail_n): (usize, &f64)| (i, model.carried_share(loads, at, i, [*tail_n, tail_at_m(model, at, i)]));
-    let worst = tensions.iter().enumerate().map(share).max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let worst = |factor: f64| {
+        let share =
+            |(i, n): (usize, &f64)| (i, model.carried_share(loads, at, i, [factor * n, tail_at_m(model, at, i)]));
+        tensions.iter().enumerate().rev().map(share).max_by(|a, b| a.1.total_cmp(&b.1))
+    };
     // Written so that NaN counts as a fold.
-    let is_within = worst.1 < 1.0;
-    (!is_within).then(|| model.assembly().segments[worst.0].middle_m())
+    let is_within = |factor: f64| worst(factor).is_none_or(|(_, share)| share < 1.0);
+    if is_within(1.0) {
+        return None;
+    }
+    let first = halved([0.0, 1.0], HALVINGS, is_within)[1];
+    worst(first).map(|(i, _)| model.assembly().segments[i].middle_m())
 }
 
 /// Distance of a taut tail from the axis in the middle of a segment, towards the actuator \[m\].

@@ -180,6 +180,9 @@ fn a_bent_robot_folds_when_its_tail_is_pulled_but_never_while_it_grows() {
         tension_n * radius_m * (at.cos() - half.cos()) / ((2.0 * DRIVING_N - tension_n) * 0.04)
     };
     let largest = (-1000..1000).map(|i| share(half * f64::from(i) / 1000.0)).fold(0.0, f64::max);
+    let station_m = grown(&robot, &growth, &loads, 1.01 * longest).unwrap().retraction_folds_m.unwrap();
+    let worst = (-1000..1000).map(|i| half * f64::from(i) / 1000.0).max_by(|a, b| share(*a).total_cmp(&share(*b)));
+    is_near(station_m, longest * 0.5 * (1.0 + worst.unwrap() / half), 0.05);
     // A section has the tension of its base end: on the safe side.
     is_near(largest, 1.0, 1e-2);
     assert_eq!(grown(&robot, &growth, &loads, 0.3).unwrap().retraction, Retraction::Folds);
