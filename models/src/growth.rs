@@ -16,7 +16,7 @@
 //! | μ, w, ψ | friction, weight of the tail per length, angle of the tail's motion to gravity | -, N/m, rad |
 //! | e | distance of the taut tail from the axis: to the line from base to tip, at most R | m |
 //!
-//! The pull of the tail goes through the base, so the column has twice the pinned ends of Euler's: π² EI/ℓ², not a quarter.
+//! The pull of the tail goes through the base, so the column carries π² EI/ℓ² as one with two pinned ends, not a quarter of it.
 //! Without the effect `gravity` the robot bends in a horizontal plane, ψ = π/2. Friction of weight and of bends is added: at
 //! most √2 too much where the weight is across the plane of the bend, and more where it pulls the tail off the inner side.
 //!
