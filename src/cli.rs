@@ -51,6 +51,8 @@ pub(crate) enum Command {
     Demo(OutDirArgs),
     /// Shape and markers at given pressures, or the pressure for a target tip
     Predict(PredictArgs),
+    /// How far and how fast a robot grows by eversion, and whether its tail retracts it
+    Grow(GrowArgs),
     /// A robot for a controller: tables as C code, or its linear form
     #[command(subcommand)]
     Export(ExportCommand),
@@ -215,6 +217,15 @@ pub(crate) struct PredictArgs {
     /// Folder for a plot of the shapes
     #[arg(long)]
     pub out: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct GrowArgs {
+    #[command(flatten)]
+    pub robot: RobotArgs,
+    /// Actuator pressures with unit, as for ibr predict; default: 0
+    #[arg(long, short, allow_hyphen_values = true)]
+    pub pressure: Option<String>,
 }
 
 #[derive(Debug, Args)]

@@ -80,12 +80,23 @@ impl Model {
         found
     }
 
-    /// Moment of the loads on a segment over the one that its section can carry.
     fn collapse_share(&self, loads: &Loads, at: &Prediction, index: usize) -> f64 {
-        let (assembly, work) = (self.assembly(), &at.work);
-        if assembly.node_terms.is_empty() {
+        if self.assembly().node_terms.is_empty() {
             return 0.0;
         }
+        self.carried_share(loads, at, index, [0.0; 2])
+    }
+
+    /// Moment of the loads on a segment over the one that its section can carry; with a tail of this tension, at this distance
+    /// from the axis towards the actuator, inside a planar robot.
+    pub(crate) fn carried_share(
+        &self,
+        loads: &Loads,
+        at: &Prediction,
+        index: usize,
+        [tail_n, tail_at_m]: [f64; 2],
+    ) -> f64 {
+        let (assembly, work) = (self.assembly(), &at.work);
         let (site, state) = (assembly.site(index), &work.states[index]);
         let (p_body_pa, radius_m) = (self.body_pa(loads, work), site.radius_m);
         if self.is_spatial() {
@@ -95,9 +106,11 @@ impl Model {
             let pulls = &mut pulling.map(|(at, s)| assembly.sites[at.site].pull(at.azimuth_rad, s.coordinate));
             return Statics { p_body_pa, radius_m, moment_nm: [y, z], tension_n: -shortening, pulls }.share();
         }
-        let tension_n = work.tension_n(index);
+        let tension_n = if assembly.node_terms.is_empty() { 0.0 } else { work.tension_n(index) };
         // From the taut generator to the axis.
-        let moment = state.moment_nm() + site.centre_line.shortening(state.curvature)[1] * tension_n;
+        let moment =
+            state.moment_nm() + site.centre_line.shortening(state.curvature)[1] * tension_n + tail_n * tail_at_m;
+        let tension_n = tension_n - tail_n;
         let pulls = &mut (state.tension > 0.0).then(|| site.pull(0.0, state.coordinate)).into_iter();
         Statics { p_body_pa, radius_m, moment_nm: [moment, 0.0], tension_n, pulls }.share()
     }

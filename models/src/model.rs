@@ -87,7 +87,7 @@ impl Model {
         model
     }
 
-    fn without_starts(scenario: &Scenario, spans: &[Span], segments: Option<Vec<Segment>>) -> Model {
+    pub(crate) fn without_starts(scenario: &Scenario, spans: &[Span], segments: Option<Vec<Segment>>) -> Model {
         let mut assembly = assemble(scenario, spans, scenario.segments);
         add_effects(scenario, &mut assembly);
         assembly.sites.iter_mut().for_each(crate::muscle::complete);

@@ -9,7 +9,7 @@ use std::io::Write;
 /// Every command once, in the order of a session.
 const GROUPS: &[(&str, &[&str])] = &[
     ("Start here", &["demo", "new", "list", "studio"]),
-    ("Predict", &["predict", "export", "simulate", "sweep", "design", "pattern"]),
+    ("Predict", &["predict", "grow", "export", "simulate", "sweep", "design", "pattern"]),
     ("Measurements", &["data", "characterize"]),
     ("Which effect is missing?", &["compare", "diagnose", "add", "validate", "ladder"]),
     ("Both engines", &["breakdown", "tradeoff"]),

@@ -17,6 +17,7 @@ mod engines;
 mod export;
 mod export_table;
 mod fem_inputs;
+mod grow;
 pub(crate) mod import_options;
 mod inputs;
 mod ladder;
@@ -41,6 +42,7 @@ pub(crate) fn run(command: &Command, context: &mut Context) -> Result<Outcome> {
     match command {
         Command::Demo(out) => demo::run(&out.out, context),
         Command::Predict(args) => predict::run(args, context),
+        Command::Grow(args) => grow::run(args),
         Command::Export(command) => export::run(command, context),
         Command::Pattern(args) => pattern::run(args, context),
         Command::Compare(args) if args.paper => paper::run(args, context),

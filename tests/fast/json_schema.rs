@@ -12,7 +12,7 @@ const RARE: &str = "ibr.demo ibr.simulations ibr.uncertain AsClose BendingAlarm 
     PressureSlipFound Reading RobotSummary RunRecord Rung SeedGroup Snap Through Varied Weight";
 
 /// What runs, in this order in one folder, and the schema of its answer.
-const COMMANDS: [(&str, &str); 55] = [
+const COMMANDS: [(&str, &str); 56] = [
     ("predict no-such-robot", "ibr.error"),
     ("predict epam --set body.radius_mn=45", "ibr.error"),
     ("predict epam --no-such-option", "ibr.error"),
@@ -22,6 +22,7 @@ const COMMANDS: [(&str, &str); 55] = [
     ("predict epam --limits --effect tip_load:force_y_n=1", "ibr.predict.limits"),
     ("predict epam-textbook --inverse 100mm,400mm", "ibr.predict"),
     ("predict epam --inverse tip=100mm", "ibr.predict"),
+    ("grow epam --set growth.tip_force_n=2 --set growth.friction=0.3 --pressure 20kPa", "ibr.grow"),
     ("export c epam --out epam.c", "ibr.export.c"),
     ("export linear fpam --pressure 20kPa", "ibr.export.linear"),
     ("export mjcf epam --pressure 20kPa --out epam.xml", "ibr.export.rigid"),

@@ -129,7 +129,7 @@ pub(crate) fn meaning(docs: &str, name: &str) -> (String, String) {
 }
 
 /// Ends of keys, the longest first, and their units.
-pub(crate) const UNITS: [(&str, &str); 34] = [
+pub(crate) const UNITS: [(&str, &str); 35] = [
     ("_cm3_per_kpa", "cm³/kPa"),
     ("_mm_per_kpa", "mm/kPa"),
     ("_deg_per_kpa", "°/kPa"),
@@ -138,6 +138,7 @@ pub(crate) const UNITS: [(&str, &str); 34] = [
     ("_nm_per_rad", "N·m/rad"),
     ("_kg_per_m", "kg/m"),
     ("_mm_per_n", "mm/N"),
+    ("_mm_per_s", "mm/s"),
     ("_n_per_mm", "N/mm"),
     ("_n_per_m", "N/m"),
     ("_per_cpu_s", "1/s"),

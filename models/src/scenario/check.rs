@@ -4,6 +4,7 @@ use super::built::is_off;
 use super::choice::ActuatorChoice;
 use super::formulas::formulas;
 use super::given::{Checked, Given, fault, si, unit};
+use super::growth::growth;
 use super::keys::{REMARKS, SEGMENTS};
 use super::raw::{Entries, RawScenario};
 use super::stated::{BASES, EffectChoice, Scenario, Wall, Zone, order};
@@ -50,6 +51,7 @@ pub(super) fn scenario(raw: &RawScenario, text: &str) -> Checked<Scenario> {
         segments: segments(raw)?,
         p_max_pa: first.as_ref().map_or(Ok(None), |a| a.number("max_pressure_kpa"))?.unwrap_or(100e3),
         line: raw.supply.as_ref().map(line).transpose()?,
+        growth: raw.growth.as_ref().map(growth).transpose()?,
         effects: effects_of(raw, &choice, &formulas)?.into_iter().collect(),
         formulas,
     };

@@ -68,11 +68,13 @@ pub(super) fn names(table: &str) -> Vec<&'static str> {
     KEYS.iter().filter(|key| key.tables.contains(&table)).map(|key| key.name).collect()
 }
 
-/// Whether a place in the text moves no predicted pose, whatever its value: names, remarks, and what acts in time alone.
+/// Whether a place in the text moves no predicted pose, whatever its value: names, remarks, growth, and what acts in time alone.
 pub fn moves_nothing(place: &str) -> bool {
     let key = place.rsplit('.').next().unwrap_or(place);
     let is_remark = REMARKS.contains(&key) && place.starts_with("effects.");
-    is_remark || matches!(place, "name" | "notes" | "body.wall_basis") || place.starts_with("supply.")
+    is_remark
+        || matches!(place, "name" | "notes" | "body.wall_basis")
+        || ["supply.", "growth."].iter().any(|table| place.starts_with(table))
 }
 
 /// Words that may stand next to the parameters of an effect: how they are known.
@@ -99,6 +101,7 @@ const STRIP: &[&str] = &["actuator", "strip"];
 const UNIT: &[&str] = &["actuator", "strip", "zone"];
 const ZONE: &[&str] = &["zone"];
 const SUPPLY: &[&str] = &["supply"];
+const GROWTH: &[&str] = &["growth"];
 const LENGTH: Range = Range::LENGTH;
 pub(super) const POSITION: Range =
     Range { name: "position", low: 0.0, too_small: "positions count from the base", ..LENGTH };
@@ -168,4 +171,23 @@ pub const KEYS: &[Key] = &[
     ])), "volume that is filled"),
     other(SUPPLY, "critical_ratio", Some(Range { name: "critical ratio", ..Range::plain(0.0, 0.8, "0.2 to 0.5 are usual") }),
         "ratio of pressures below which the flow is choked"),
+    other(GROWTH, "tip_force_n", Some(range("tip force", "N", 1.0, [0.0, 1e4], [
+        "a force is not negative", "write newtons: half of the pressure at which it halts, times the area of the tube",
+    ])), "half of pressure times area at which a straight tube halts"),
+    other(GROWTH, "break_away_n", Some(range("break-away force", "N", 1.0, [0.0, 1e4], [
+        "a force is not negative", "write newtons: half of the pressure at which it starts, times the area of the tube",
+    ])), "half of pressure times area at which it starts from rest"),
+    other(GROWTH, "friction", Some(Range { name: "friction", ..Range::plain(0.0, 2.0, "0.1 to 0.5 are usual for films and coated fabric") }),
+        "coefficient of friction of the tail on the wall"),
+    other(GROWTH, "tail_weight_n_per_m", Some(range("tail weight", "N/m", 1.0, [0.0, 100.0], [
+        "a weight is not negative", "write N/m: 0.2 for 20 g per metre",
+    ])), "weight of the tail per length"),
+    other(GROWTH, "base_tension_n", Some(range("base tension", "N", 1.0, [0.0, 1e4], [
+        "a spool does not push the tail", "write newtons",
+    ])), "pull of the spool on the tail at the base"),
+    other(GROWTH, "speed_at_1n_m_per_s", Some(range("speed", "m/s", 1.0, [1e-6, 100.0], [
+        "leave it out where the speed is not known", "write metres per second: 0.05 for 50 mm/s",
+    ])), "speed of the tip at a force of 1 N beyond the halt"),
+    other(GROWTH, "exponent", Some(Range { name: "exponent", ..Range::plain(0.1, 10.0, "1 is a speed in proportion to the force") }),
+        "power of the force beyond the halt in the speed"),
 ];

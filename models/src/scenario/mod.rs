@@ -24,6 +24,7 @@ mod choice;
 mod dials;
 mod formulas;
 mod given;
+mod growth;
 mod keys;
 pub mod quantity;
 mod raw;
@@ -37,7 +38,7 @@ pub use dials::Dial;
 pub use keys::{KEYS, Key, key, moves_nothing};
 pub use set::Setting;
 pub use spans::Span;
-pub use stated::{BASES, EffectChoice, Effects, Scenario, Wall, Zone};
+pub use stated::{BASES, EffectChoice, Effects, Growth, Scenario, Wall, Zone};
 
 use crate::error::ScenarioError;
 

@@ -27,6 +27,7 @@ pub(super) struct RawScenario {
     #[serde(default)]
     pub predict: Predict,
     pub supply: Option<Spanned<Entries>>,
+    pub growth: Option<Spanned<Entries>>,
     #[serde(default)]
     pub formula: Vec<Spanned<RawFormula>>,
     #[serde(default)]

@@ -47,6 +47,8 @@ pub struct Scenario {
     pub p_max_pa: f64,
     /// How fast a set pressure arrives, for what happens in time; `None`: at once.
     pub line: Option<Line>,
+    /// Growth by eversion, which moves no pose; `None`: not known.
+    pub growth: Option<Growth>,
     /// Effects that are switched on, in the order of the catalogue.
     pub effects: Effects,
     /// The scenario's own effects, in the order of the text: they follow the catalogue's.
@@ -62,6 +64,25 @@ pub struct Wall {
     pub shear_n_per_m: Option<f64>,
     /// How they are known: a word of `basis`; empty without either.
     pub basis: String,
+}
+
+/// What growth by eversion takes, measured on the tube; [`crate::grown`] has its mechanics.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Growth {
+    /// Force Y = ½ P A at which a tube without tail tension halts \[N\].
+    pub tip_force_n: f64,
+    /// Force ½ P A at which it starts from rest, and more than ½ P A by which inverting it starts \[N\].
+    pub break_away_n: f64,
+    /// Coefficient of friction μ of the tail on the wall \[-\].
+    pub friction: f64,
+    /// Weight w of the tail per length \[N/m\].
+    pub tail_weight_n_per_m: f64,
+    /// Pull T₀ of the spool on the tail at the base \[N\].
+    pub base_tension_n: f64,
+    /// Speed v₁ of the tip 1 N beyond the halt \[m/s\]; `None`: not measured.
+    pub speed_at_1n_m_per_s: Option<f64>,
+    /// Exponent n of the speed \[-\].
+    pub exponent: f64,
 }
 
 /// A stretch of the body where something differs from the rest.
