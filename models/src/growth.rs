@@ -23,7 +23,7 @@
 //! **Validity**: planar robots, inextensible thin tail, quasi-static. **Left out**: what the tail's tension does to the bend, contact
 //! with surroundings, the thickness of the tail, a shorter tail on the inner side of a bend, pressure lost to leaks and to flow.
 //! A unit that is everted in part bends as the others. The sum of terms at the tip is published (Hawkes et al. 2017; Blumenschein et al.
-//! 2017), and so is buckling in retraction (Coad et al. 2020); recalled, not read. Derived here.
+//! 2017), and so is buckling in retraction (Coad et al. 2020). Derived here.
 
 use crate::assemble::divide;
 use crate::assembly::Segment;
