@@ -119,9 +119,6 @@ pub(crate) struct StudioArgs {
     /// Port on 127.0.0.1; 0 for a free one
     #[arg(long, default_value_t = 0)]
     pub port: u16,
-    /// The page; default: web/dist/ibr.html here, or ibr.html next to the program
-    #[arg(long, value_name = "FILE")]
-    pub page: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
@@ -139,8 +136,9 @@ pub(crate) struct VerifyArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct BenchArgs {
-    /// model, fem or discovery: how often a diagnosis is right on data with hidden effects
-    #[arg(value_parser = ["model", "fem", "discovery"], default_value = "model")]
+    /// model; fem; runs: fem and whole runs, pillows of the nodes of up to 80 000 triangles and the four robots, about two minutes;
+    /// discovery: how often a diagnosis is right on data with hidden effects
+    #[arg(value_parser = ["model", "fem", "runs", "discovery"], default_value = "model")]
     pub what: String,
     /// With discovery: sets without and with one hidden effect; the default takes seconds, 200 are the full bench
     #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u64).range(1..=100_000))]
@@ -156,9 +154,6 @@ pub(crate) struct BenchArgs {
     pub out: Option<PathBuf>,
     #[command(flatten)]
     pub shards: ShardArgs,
-    /// With fem: also whole runs, pillows of the nodes of up to 80 000 triangles and the four robots, about two minutes
-    #[arg(long)]
-    pub all: bool,
 }
 
 #[derive(Debug, Args)]
@@ -191,13 +186,11 @@ pub(crate) struct PredictArgs {
     #[command(flatten)]
     pub robot: RobotArgs,
     /// Actuator pressures with unit, for example 10kPa,20kPa, or from 0 to 30 in steps: 0:30:0.01kPa; `/` separates supply
-    /// channels. With an effect that has history (friction, creep, plastic_set, leak) they are one path in this order, 5 s
+    /// channels; or a CSV file with a line for each pose, whose first names the columns: p_kpa, or p0_kpa,p1_kpa; also
+    /// p_body_kpa. With an effect that has history (friction, creep, plastic_set, leak) they are one path in this order, 5 s
     /// each, from rest
     #[arg(long, short, allow_hyphen_values = true)]
     pub pressure: Option<String>,
-    /// A CSV file of pressures, a line for each pose; the first names the columns: p_kpa, or p0_kpa,p1_kpa; also p_body_kpa
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["pressure", "inverse", "follow"])]
-    pub pressures: Option<PathBuf>,
     /// Find the pressure instead: tip=100mm (height) or angle=60deg (total bend); or 300mm,120mm: the pressures of all supply
     /// channels that bring the tip nearest to this x, y
     #[arg(long, short, conflicts_with = "pressure")]
@@ -244,7 +237,7 @@ pub(crate) struct CompareArgs {
     #[arg(value_name = "SCENARIO DATA")]
     pub inputs: Vec<String>,
     /// Hold the reduced model and finite element runs against each other and against the published numbers
-    #[arg(long, visible_alias = "published", conflicts_with_all = ["calibrate", "effect", "sigma", "max_error"])]
+    #[arg(long, conflicts_with_all = ["calibrate", "effect", "sigma", "max_error"])]
     pub engines: bool,
     /// The paper's finite elements, reproduced: runs with its own modelling choices, compared with what it prints, fact by fact
     #[arg(long, conflicts_with_all = ["engines", "calibrate", "effect", "sigma", "max_error"])]
