@@ -78,11 +78,11 @@ fn shown(against: &[HeightRow], rows: &[FactRow], runs: &[PaperRun]) -> String {
             .right(format!("marker {}", k + 1), |a| a.markers_mm.get(k).map_or(String::new(), |mm| format!("{mm:.1}")));
     }
     out += &markers.text();
-    out += "\nEvery sentence of the paper with something to check\n";
+    out += "\nSentences of the paper that runs or patterns can check\n";
     out += &TextTable::of(rows)
         .words("the paper states", |r| &r.says)
         .words("in", |r| &r.place)
-        .words("engine, or the paper elsewhere", |r| &r.found)
+        .words("engine", |r| &r.found)
         .words("verdict", |r| r.verdict.words())
         .text();
     out + &counted(rows) + &numerics(runs)
@@ -104,7 +104,7 @@ fn place(against: &[HeightRow]) -> TextTable<&HeightRow> {
 
 /// How many facts hold, miss, contradict each other or cannot be checked.
 fn counted(rows: &[FactRow]) -> String {
-    let kinds = ["holds", "misses", "contradicts itself", "cannot be checked"];
+    let kinds = ["holds", "misses", "cannot be checked"];
     let count = |kind: &str| rows.iter().filter(|row| row.verdict.words().starts_with(kind)).count();
     let words = kinds.map(|kind| format!("{kind} {}", count(kind))).join(", ");
     format!("\n{} facts: {words}.\n", rows.len())

@@ -3,7 +3,7 @@
 use crate::loads::in_plane;
 use crate::score::{Claim, ClaimScore};
 use crate::truth::{Hiding, Truth};
-use compare::diagnosis::{Diagnosis, Distances, Options};
+use compare::diagnosis::{Diagnosis, Options};
 use compare::error::CompareError;
 use compare::{Evidence, Progress};
 use data::{About, Direct, Provenance};
@@ -89,13 +89,6 @@ pub struct Named {
     pub smallest_detectable: Option<f64>,
     /// Score after the recommended next experiment, of ambiguous sets.
     pub after: Option<After>,
-    /// How far the truth is from what the catalogue can say, of one hidden effect and of one outside the catalogue.
-    pub distances: Option<Distances>,
-    /// Shares of all noise in which the truth could be named first, and among three, of one hidden effect that gave alarm; of two,
-    /// in which the nearest pair of laws holds one of them, and both.
-    pub at_best: Option<[f64; 2]>,
-    /// The same experiment with next to no noise, where the truth did not come out on top.
-    pub after_in_silence: Option<ClaimScore>,
 }
 
 /// The answer after the recommended experiment was measured too.

@@ -90,7 +90,7 @@ pub(super) fn rows(outcomes: &[SetOutcome]) -> Vec<Rate> {
     rows
 }
 
-pub(super) fn found(outcomes: &[SetOutcome], part: Lot) -> NamedOutcomes<'_> {
+fn found(outcomes: &[SetOutcome], part: Lot) -> NamedOutcomes<'_> {
     outcomes.iter().filter(|o| o.part == part).filter_map(|o| Some((o, o.named.as_ref()?))).collect()
 }
 
@@ -156,12 +156,6 @@ fn after(outcomes: &[SetOutcome]) -> [Rate; 2] {
         Rate::share(case, "truth on top", AtLeast(0.90), &top),
         Rate::share(case, "truth in the stated set", AtLeast(0.93), &in_set),
     ]
-}
-
-/// Of every set missed after the next experiment, whether it is missed with next to no noise too.
-pub(super) fn missed_in_silence(outcomes: &[SetOutcome]) -> Vec<bool> {
-    let all = found(outcomes, ONE);
-    all.iter().filter_map(|(_, named)| named.after_in_silence.as_ref()).map(|score| score.rank != Some(1)).collect()
 }
 
 fn quality(outcomes: &[SetOutcome]) -> [Rate; 4] {

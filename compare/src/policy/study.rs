@@ -56,8 +56,6 @@ pub const NONE: f64 = 0.02;
 pub const LITTLE: f64 = 0.05;
 /// "Almost" a number of points: from so many below it.
 pub const ALMOST: f64 = 5.0;
-/// What a number with one decimal may be off by.
-pub const ROUNDED: f64 = 0.051;
 
 /// Whether a share counts as no difference in the words of a publication.
 pub fn is_none(share: f64) -> bool {
@@ -72,11 +70,6 @@ pub fn is_little(share: f64) -> bool {
 /// Whether points are almost those printed.
 pub fn is_almost(points: f64, printed: f64) -> bool {
     (printed - ALMOST..=printed).contains(&points)
-}
-
-/// Whether a value is the number that was printed with one decimal.
-pub fn is_rounded(value: f64, printed: f64) -> bool {
-    (value - printed).abs() < ROUNDED
 }
 
 /// A specimen that is off the mean of the others by more than this share deviates.

@@ -1,7 +1,7 @@
 //! How often a diagnosis is right, on data whose hidden effects follow other laws.
 
 use crate::{Error, Findings, Printed};
-use challenge::bench::{Attainable, Confusion, Discovery, DiscoveryOptions, Goal, PieceAnswer, PlannedBench, Rate};
+use challenge::bench::{Confusion, Discovery, DiscoveryOptions, Goal, PieceAnswer, PlannedBench, Rate};
 use challenge::truth::{ROBOTS, standard_protocol};
 use challenge::{Draw, Truth};
 use compare::Evidence;
@@ -96,8 +96,7 @@ impl DiscoveryWork {
         );
         let json = json!({
             "schema": "ibr.bench.discovery", "version": 1, "seed": seed, "sets": sets, "laws": laws, "rows": bench.rows, "slipped": bench.slipped, "surplus": bench.surplus, "faults": bench.faults,
-            "confusion": bench.confusion, "breakdown": bench.breakdown, "attainable": bench.attainable,
-            "missed_after": bench.missed_after, "missed_by_law": bench.missed_by_law,
+            "confusion": bench.confusion, "breakdown": bench.breakdown,
             "made": bench.made, "seen": bench.seen, "failed": bench.failed, "time": {"machine": machine, "row": time},
         });
         let missed = bench.rows.iter().chain([&time]).any(|row| row.met == Some(false)) || !bench.failed.is_empty();
@@ -174,11 +173,6 @@ fn parts(bench: &Discovery, time: &Rate) -> Vec<Printed> {
         "stated",
         "closest",
     ];
-    let missed = format!(
-        "Of {} sets missed after the next experiment {} are missed with a hundredth of the noise too: \
-         another formula of the catalogue meets the robot's law as well as its own, or better.\n",
-        bench.missed_after, bench.missed_by_law
-    );
     let laws = if bench.laws.are_first() { "" } else { " by the second laws" };
     vec![
         Printed::Text(format!("Diagnosis of data with hidden effects{laws}, seed {}\n", bench.seed)),
@@ -192,7 +186,7 @@ fn parts(bench: &Discovery, time: &Rate) -> Vec<Printed> {
              the catalogue's formula.\n"
                 .into(),
         ),
-        Printed::Text(limits(bench) + &attainable(&bench.attainable) + &missed),
+        Printed::Text(limits(bench)),
         Printed::Text("\nAmbiguous, after the next experiment: by what was hidden\n".into()),
         Printed::table(&["hidden", "sets", "truth on top"], 1, after),
         Printed::Text(
@@ -235,30 +229,6 @@ fn limits(bench: &Discovery) -> String {
          sizes); of {} called by another name {alike} are the same curve here (λ below {ENOUGH}).\n",
         count(&unseen),
         count(&other)
-    )
-}
-
-/// What no test could exceed, and why sets outside the catalogue were not flagged.
-fn attainable(limits: &Attainable) -> String {
-    let percent = |v: Option<f64>| v.map_or("–".into(), |v| format!("{:.1} %", 100.0 * v));
-    let [alarm, any, one, two] = [limits.alarm_known, limits.alarm_any, limits.flag_one, limits.flag_two].map(percent);
-    let [top, three] = [limits.on_top, limits.first_three].map(percent);
-    let [one_of_two, both] = [limits.one_of_two, limits.both].map(percent);
-    let [median, most] = limits.form.map_or(["–".into(), "–".into()], |f| f.map(|v| percent(Some(v))));
-    format!(
-        "\nWhat no test could exceed, even if it knew the noise and the truth's shape (mean power of the best test)\n\
-         One hidden effect, alarm, 3 % false alarms: {alarm} if it knows the effect, {any} if it looks for one of ten.\n\
-         One hidden effect, name, given alarm, with every law as it is in these robots: {top} on top, {three} in the first \
-         three.\n\
-         Two hidden effects, names, with every law as it is and the number of effects known: one at least right in {one_of_two}, \
-         both in {both}.\n\
-         Outside the catalogue, 5 % false flags, laws taken as the catalogue's formulas: {one} if one effect counts as an \
-         explanation, {two} if two do.\n\
-         Laws are not the formulas: of the misfit that an effect of the catalogue makes here, the nearest formula leaves \
-         {median} of the amplitude in the median and {most} in one of ten sets, and that must not be flagged.\n\
-         Of {} sets outside the catalogue that were not flagged, one or two effects come nearer than can be seen in {} (λ below \
-         13) and as near as an effect's own formula in {} more.\n",
-        limits.missed, limits.missed_unseen, limits.missed_alike
     )
 }
 

@@ -1,20 +1,19 @@
-//! Every sentence of the paper that can be checked, next to the result of the engine or of the paper itself.
+//! Every sentence of the paper that runs, or the patterns of its robots, can check, next to the result of the engine.
 
+use super::checks::CHECKS;
 use super::{MESHES_MM, PaperRun, find};
-use data::Published;
+use data::{Published, PublishedFact};
 use serde::Serialize;
 
 /// Result of checking a sentence of the paper.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "is", content = "why", rename_all = "snake_case")]
 pub enum FactVerdict {
-    /// The engine or the paper's own numbers say the same.
+    /// The engine says the same.
     Holds,
-    /// The engine or the paper's own numbers say something else.
+    /// The engine says something else.
     Misses(String),
-    /// The paper contradicts it elsewhere.
-    ContradictsItself(String),
-    /// Neither runs nor printed numbers decide it.
+    /// There is no run that decides it.
     CannotBeChecked(String),
 }
 
@@ -24,7 +23,6 @@ impl FactVerdict {
         match self {
             FactVerdict::Holds => "holds".into(),
             FactVerdict::Misses(by) => format!("misses: {by}"),
-            FactVerdict::ContradictsItself(how) => format!("contradicts itself: {how}"),
             FactVerdict::CannotBeChecked(why) => format!("cannot be checked: {why}"),
         }
     }
@@ -39,31 +37,36 @@ pub struct FactRow {
     pub place: String,
     /// The sentence as the paper prints it, shortened.
     pub says: String,
-    /// The result of the engine, or of the paper elsewhere.
+    /// The result of the engine.
     pub found: String,
     /// Whether the finding supports the sentence.
     pub verdict: FactVerdict,
 }
 
-/// What a check found, in words, and what follows; `None` without the numbers or runs that it needs.
-pub(super) type FactFound = Option<(String, FactVerdict)>;
+/// What a check found, in words, and what it is instead where the sentence does not hold; `None` without the runs that it needs.
+pub(super) type FactFound = Option<(String, Option<String>)>;
 
-pub(super) type FactCheck = (&'static str, fn(&FactCase) -> FactFound);
+/// Name of a fact, the runs that it needs, and its check.
+pub(super) type FactCheck = (&'static str, &'static str, fn(&FactCase) -> FactFound);
 
 pub(super) fn holds_if(holds: bool, found: String, else_by: impl Into<String>) -> FactFound {
-    Some((found, if holds { FactVerdict::Holds } else { FactVerdict::Misses(else_by.into()) }))
+    Some((found, (!holds).then(|| else_by.into())))
 }
 
-pub(super) fn contradicts_itself(found: impl Into<String>, how: impl Into<String>) -> FactFound {
-    Some((found.into(), FactVerdict::ContradictsItself(how.into())))
-}
-
-pub(super) fn cannot_be_checked(found: impl Into<String>, why: &str) -> FactFound {
-    Some((found.into(), FactVerdict::CannotBeChecked(why.into())))
-}
-
-pub(super) fn joined(words: impl Iterator<Item = String>) -> String {
-    words.collect::<Vec<_>>().join(", ")
+/// All facts of the paper with the checks of their names, in the order of its file.
+pub fn facts(paper: &Published, runs: &[PaperRun]) -> Vec<FactRow> {
+    let row = |fact: &PublishedFact| {
+        let case = FactCase { paper, runs, numbers: &fact.numbers };
+        let known = CHECKS.iter().find(|(id, ..)| *id == fact.id);
+        let (needs, found) = known.map_or(("check of it", None), |(_, needs, check)| (*needs, check(&case)));
+        let (found, verdict) = match found {
+            Some((found, None)) => (found, FactVerdict::Holds),
+            Some((found, Some(by))) => (found, FactVerdict::Misses(by)),
+            None => ("–".into(), FactVerdict::CannotBeChecked(format!("no {needs}"))),
+        };
+        FactRow { id: fact.id.clone(), place: fact.place.clone(), says: fact.says.clone(), found, verdict }
+    };
+    paper.facts.iter().map(row).collect()
 }
 
 /// A fact with everything that it may be compared with.
@@ -77,11 +80,6 @@ impl<'a> FactCase<'a> {
     /// A number of the fact; NaN if the file has fewer, which a test refuses.
     pub(super) fn number(&self, k: usize) -> f64 {
         self.numbers.get(k).copied().unwrap_or(f64::NAN)
-    }
-
-    /// Largest displacement that the paper reports for this actuator \[mm\].
-    pub(super) fn d_max_mm(&self, kind: &str) -> Option<f64> {
-        Some(self.paper.actuator(kind)?.d_max_m * 1e3)
     }
 
     /// Runs of the robots at the pressures on the finest mesh that has all of them.

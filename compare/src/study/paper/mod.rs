@@ -1,17 +1,14 @@
 //! The finite elements of du Pasquier et al. 2023 against this engine with their modelling choices, `[fem] model = "paper"`:
-//! displacements next to those that the paper's accuracies imply, and every sentence of the paper that can be checked.
+//! displacements next to those that the paper's accuracies imply, and the sentences of the paper that runs or patterns can check.
 
-mod checked;
+mod checks;
 mod facts;
 mod implied;
-mod in_print;
-mod in_runs;
 mod jobs;
 
 use crate::policy;
 use crate::study::engines::{EngineRun, EngineState, Listed};
-pub use checked::facts;
-pub use facts::{FactRow, FactVerdict};
+pub use facts::{FactRow, FactVerdict, facts};
 use fem::FemError;
 use fem::record::RecordShape;
 pub use implied::{HeightRow, Implied, against, heights};
