@@ -23,7 +23,7 @@ pub use outcome::{After, Diagnoser, Lot, Named, PlannedSet, SetOutcome};
 pub use row::{Goal, Rate};
 pub use slipped::SlippedSet;
 pub use surplus::SurplusSet;
-pub use table::{Confusion, Slice};
+pub use table::Confusion;
 
 use super::effects::Laws;
 use super::score::{Claim, ClaimScore};
@@ -68,8 +68,6 @@ pub struct Discovery {
     pub rows: Vec<Rate>,
     /// How often each hidden effect got each name, of sets with one effect.
     pub confusion: Vec<Confusion>,
-    /// Single effects by actuator, camera noise and runs.
-    pub breakdown: Vec<Slice>,
     /// Data made by finite elements, mechanism by mechanism.
     pub made: Vec<OneOff>,
     /// Data with a column of pressures written wrongly.
@@ -206,7 +204,6 @@ impl PlannedBench {
             ]
             .concat(),
             confusion: table::confusion(&outcomes),
-            breakdown: table::breakdown(&outcomes),
             slipped,
             surplus,
             faults,

@@ -25,21 +25,6 @@ pub struct Confusion {
     pub smallest_detectable: Option<f64>,
 }
 
-/// Figures of single effects for a part of the sets.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Slice {
-    /// Which part: an actuator, a camera noise, a number of runs.
-    pub of: String,
-    /// How many sets this part has.
-    pub sets: usize,
-    /// Share of these sets that gave an alarm.
-    pub alarm: f64,
-    /// Given alarm: share with the truth on top.
-    pub on_top: f64,
-    /// Given alarm: share with the truth in the stated set.
-    pub in_set: f64,
-}
-
 /// A share of sets: its name, the goal, and whether a set counts.
 type Counted = (&'static str, Goal, fn(&Named) -> bool);
 
@@ -210,31 +195,4 @@ pub(super) fn confusion(outcomes: &[SetOutcome]) -> Vec<Confusion> {
     let mut all: Vec<Confusion> = cells.collect();
     all.sort_by(|a, b| (&a.truth, b.count, &a.named).cmp(&(&b.truth, a.count, &b.named)));
     all
-}
-
-/// Figures of single effects by actuator, camera noise and runs.
-pub(super) fn breakdown(outcomes: &[SetOutcome]) -> Vec<Slice> {
-    let all = found(outcomes, ONE);
-    let keys = |outcome: &SetOutcome| {
-        let truth = &outcome.truth;
-        [truth.actuator.clone(), format!("{} mm", truth.camera_sd_m * 1e3), format!("{} runs", truth.runs)]
-    };
-    let mut names: Vec<(usize, String)> =
-        all.iter().flat_map(|(outcome, _)| keys(outcome).into_iter().enumerate()).collect();
-    names.sort();
-    names.dedup();
-    let share = |hits: usize, of: usize| if of > 0 { hits as f64 / of as f64 } else { 0.0 };
-    let part = |(place, of): (usize, String)| {
-        let sets: Vec<&Named> = all.iter().filter(|(o, _)| keys(o)[place] == of).map(|(_, named)| *named).collect();
-        let alarmed: Vec<&&Named> = sets.iter().filter(|named| named.score.alarm).collect();
-        let count = |hit: &dyn Fn(&Named) -> bool| alarmed.iter().filter(|named| hit(named)).count();
-        Slice {
-            of,
-            sets: sets.len(),
-            alarm: share(alarmed.len(), sets.len()),
-            on_top: share(count(&|named| named.score.rank == Some(1)), alarmed.len()),
-            in_set: share(count(&|named| named.score.in_set), alarmed.len()),
-        }
-    };
-    names.into_iter().map(part).collect()
 }

@@ -4,8 +4,6 @@
 pub const MEETS: f64 = 0.1;
 /// Share of the last turn from which a robot is bent.
 pub const BENT: f64 = 0.1;
-/// Share of the last volume from which an actuator is filled.
-pub const FILLED: f64 = 0.05;
 /// Readings of a run this near are of one pressure, or of one size \[kPa, mm\].
 pub const SAME_READING: f64 = 0.05;
 /// Pressures of a run and of a hold within this fraction are the same.
@@ -23,11 +21,6 @@ pub fn meets(off: f64) -> bool {
 /// Whether a robot is bent, of its turn and the last one.
 pub fn is_bent(turn_rad: f64, last_rad: f64) -> bool {
     turn_rad > BENT * last_rad
-}
-
-/// Whether an actuator is filled, of its volume and the last one.
-pub fn is_filled(volume_cm3: f64, last_cm3: f64) -> bool {
-    volume_cm3 > FILLED * last_cm3
 }
 
 /// Whether two readings of a run are of one pressure or size \[kPa, mm\].

@@ -9,7 +9,6 @@ use compare::diagnosis::{Options, diagnose};
 use fem::cost::thread_seconds;
 use fem::session::{Progress, Shard, sha256};
 use serde_json::json;
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use sweep::pieces;
 
@@ -96,7 +95,7 @@ impl DiscoveryWork {
         );
         let json = json!({
             "schema": "ibr.bench.discovery", "version": 1, "seed": seed, "sets": sets, "laws": laws, "rows": bench.rows, "slipped": bench.slipped, "surplus": bench.surplus, "faults": bench.faults,
-            "confusion": bench.confusion, "breakdown": bench.breakdown,
+            "confusion": bench.confusion,
             "made": bench.made, "seen": bench.seen, "failed": bench.failed, "time": {"machine": machine, "row": time},
         });
         let missed = bench.rows.iter().chain([&time]).any(|row| row.met == Some(false)) || !bench.failed.is_empty();
@@ -122,18 +121,12 @@ fn seconds(seed: u64) -> Result<f64, Error> {
 }
 
 fn parts(bench: &Discovery, time: &Rate) -> Vec<Printed> {
-    let percent = |v: f64| format!("{:.0} %", 100.0 * v);
     let head = &["sets of", "figure", "target", "measured", "95 % interval", "sets", "met"];
-    let by_part = bench
-        .breakdown
-        .iter()
-        .map(|b| vec![b.of.clone(), b.sets.to_string(), percent(b.alarm), percent(b.on_top), percent(b.in_set)]);
     let named = bench.confusion.iter().map(|c| {
         let [lambda, behind, least] = [c.lambda, c.bic_behind, c.smallest_detectable].map(number);
         vec![c.truth.clone(), c.named.clone(), c.count.to_string(), lambda, behind, least]
     });
     let named_head = &["hidden", "named", "sets", "λ", "truth behind by BIC", "smallest detectable [typical sizes]"];
-    let after = after(bench).into_iter().map(|(name, [sets, hits])| vec![name, sets.to_string(), hits.to_string()]);
     let made = bench.made.iter().map(|m| {
         let listed = |names: &[String]| if names.is_empty() { "–".into() } else { names.join(", ") };
         let [before, whole, after] = m.systematic_mm.map(|mm| number(Some(mm)));
@@ -177,8 +170,6 @@ fn parts(bench: &Discovery, time: &Rate) -> Vec<Printed> {
     vec![
         Printed::Text(format!("Diagnosis of data with hidden effects{laws}, seed {}\n", bench.seed)),
         Printed::table(head, 2, bench.rows.iter().chain([time]).map(cells)),
-        Printed::Text("\nOne hidden effect, by part of the sets\n".into()),
-        Printed::table(&["of", "sets", "alarm", "truth on top", "truth in set"], 1, by_part),
         Printed::Text("\nOne hidden effect: what was named\n".into()),
         Printed::table(named_head, 2, named),
         Printed::Text(
@@ -187,8 +178,6 @@ fn parts(bench: &Discovery, time: &Rate) -> Vec<Printed> {
                 .into(),
         ),
         Printed::Text(limits(bench)),
-        Printed::Text("\nAmbiguous, after the next experiment: by what was hidden\n".into()),
-        Printed::table(&["hidden", "sets", "truth on top"], 1, after),
         Printed::Text(
             "\nMade by finite elements, the shipped model without one mechanism: its effect there, and the names given\n"
                 .into(),
@@ -201,18 +190,6 @@ fn parts(bench: &Discovery, time: &Rate) -> Vec<Printed> {
 /// A number with one decimal, or a dash for `None`.
 fn number(value: Option<f64>) -> String {
     value.map_or_else(|| "–".into(), |v| format!("{v:.1}"))
-}
-
-/// Of every hidden effect the ambiguous sets after the next experiment: all, and with the truth on top.
-fn after(bench: &Discovery) -> BTreeMap<String, [usize; 2]> {
-    let mut counts = BTreeMap::new();
-    for (seen, after) in bench.seen.iter().filter_map(|seen| Some((seen, seen.after.as_ref()?))) {
-        let name = seen.truth.effects.first().map_or_else(String::new, |choice| choice.name.clone());
-        let count: &mut [usize; 2] = counts.entry(name).or_default();
-        count[0] += 1;
-        count[1] += usize::from(after.score.rank == Some(1));
-    }
-    counts
 }
 
 /// How many misses of single effects no method could avoid with these data, cell by cell of the table above.
