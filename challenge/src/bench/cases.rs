@@ -163,7 +163,6 @@ fn unseen_mm(truth: &Truth, found: &Diagnosis) -> Option<[f64; 2]> {
 
 fn scored(truth: &Truth, found: &Diagnosis) -> Named {
     let answer = Claim::of(found);
-    let first = found.ranked.iter().find(|row| answer.added.first() == Some(&row.effect));
     let is_true = |name: &String| truth.effects.first().is_some_and(|choice| choice.name == *name);
     let now = found.next_experiment.iter().flat_map(|next| &next.now);
     Named {
@@ -171,10 +170,6 @@ fn scored(truth: &Truth, found: &Diagnosis) -> Named {
         identified: found.confidence == Some(Confidence::IdentifiedInCatalog),
         slip: !found.slips.is_empty(),
         pressure_slip: found.pressure_slip.is_some(),
-        bending_alarm: found.bending_alarm.is_some(),
-        systematic_mm: [found.base.systematic_mm, found.base.systematic_with_added_mm],
-        tolerance_mm: found.tolerance_mm,
-        heldout_mm: found.base.heldout_run_mm.zip(first.and_then(|row| row.heldout_run_mm)).map(|(a, b)| [a, b]),
         unseen_mm: unseen_mm(truth, found),
         bending_held: found
             .base

@@ -67,14 +67,6 @@ pub struct Named {
     pub slip: bool,
     /// A column of pressures was, and the verdict withheld.
     pub pressure_slip: bool,
-    /// The diagnosis reported a stiffness that differs from the scenario or from a bending test.
-    pub bending_alarm: bool,
-    /// Error beyond noise of the calibrated base and of the final model \[mm\].
-    pub systematic_mm: [f64; 2],
-    /// Error that is good enough \[mm\].
-    pub tolerance_mm: f64,
-    /// The same on runs left out, where the diagnosis gives both.
-    pub heldout_mm: Option<[f64; 2]>,
     /// Rms error of the calibrated base and of the final model under a protocol without measurements \[mm\], of verdicts that name.
     pub unseen_mm: Option<[f64; 2]>,
     /// The base's 95 % interval of B holds the true one.
