@@ -233,24 +233,21 @@ pub(crate) struct PatternArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct CompareArgs {
-    /// Scenario file or shipped robot, then marker data; with --engines or --paper any number of scenarios, the paper's if none
+    /// Scenario file or shipped robot, then marker data; with --engines any number of scenarios, the paper's if none
     #[arg(value_name = "SCENARIO DATA")]
     pub inputs: Vec<String>,
     /// Hold the reduced model and finite element runs against each other and against the published numbers
     #[arg(long, conflicts_with_all = ["calibrate", "effect", "sigma", "max_error"])]
     pub engines: bool,
-    /// The paper's finite elements, reproduced: runs with its own modelling choices, compared with what it prints, fact by fact
+    /// The paper's finite elements, reproduced: runs with its own modelling choices, compared with what it prints
     #[arg(long, conflicts_with_all = ["engines", "calibrate", "effect", "sigma", "max_error"])]
     pub paper: bool,
     #[command(flatten)]
     pub runs: RunsArgs,
-    /// With --paper and --runs: meshes of the runs, body and actuator; the paper's final one is 4mm/1mm and takes hours
-    #[arg(long, value_name = "[BODY/]ACTUATOR", requires_all = ["paper", "runs"], default_value = "4mm", allow_hyphen_values = true)]
-    pub mesh: String,
     /// With --engines: runs of every robot, with other random imperfections each
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1000))]
     pub seeds: u64,
-    /// Actuator pressures of the runs; default: the scenario's, and with --paper also 11, 12 and 13 kPa of the cPAM
+    /// Actuator pressures of the runs; default: the scenario's
     #[arg(long, allow_hyphen_values = true)]
     pub pressure: Option<String>,
     /// Also fit the bending stiffness B to these data, or with =body-pressure the body's pressure, and show what that brings
@@ -271,8 +268,8 @@ pub(crate) struct CompareArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct RunsArgs {
-    /// Folder of finished runs; missing ones are made there. Default: ibr-report/runs; with --paper the runs that come
-    /// with the program
+    /// Folder of finished runs; missing ones are made there. Default: ibr-report/runs; with --paper only those that are there are
+    /// read, those of ibr simulate epam-paper and its like; default: the runs that come with the program
     #[arg(long)]
     pub runs: Option<PathBuf>,
     /// Only the runs that come with the program: nothing is simulated

@@ -109,7 +109,7 @@ fn the_papers_own_model_makes_a_run_of_every_pressure_and_its_table_comes_from_s
     assert_eq!(answer["heights"].as_array().unwrap().is_empty(), answer["runs"] == 0);
     assert_hashes(&folder.path("page"));
     let wrong = folder.run(&["compare", "--paper", "epam"]);
-    assert!(wrong.code == 2 && wrong.stderr.contains("add --runs FOLDER"), "{}", wrong.stderr);
+    assert!(wrong.code == 2 && wrong.stderr.contains("--runs FOLDER compares them"), "{}", wrong.stderr);
 }
 
 #[test]

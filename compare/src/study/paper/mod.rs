@@ -4,7 +4,7 @@
 mod checks;
 mod facts;
 mod implied;
-mod jobs;
+mod runs;
 
 use crate::policy;
 use crate::study::engines::{EngineRun, EngineState, Listed};
@@ -12,7 +12,7 @@ pub use facts::{FactRow, FactVerdict, facts};
 use fem::FemError;
 use fem::record::RecordShape;
 pub use implied::{HeightRow, Implied, against, heights};
-pub use jobs::{jobs, runs_below};
+pub use runs::runs_below;
 use serde::{Deserialize, Serialize};
 
 /// Meshes of the paper: the coarsest of its study on body and actuator, and the final one \[mm\].
@@ -60,7 +60,7 @@ pub struct Peak {
 
 const RUNS: RecordShape = RecordShape { schema: "ibr.paper_runs", version: 2 };
 
-/// Runs of the preset that come with the program, made by `ibr compare --paper --runs FOLDER`.
+/// Runs of the preset that come with the program, as `ibr compare --paper --runs FOLDER` writes them.
 ///
 /// # Errors
 /// The errors of [`read_runs`], for a program whose runs were not made again with its records.
