@@ -48,7 +48,11 @@ pub(crate) struct Cli {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     /// The whole story on embedded data, with a report
-    Demo(OutDirArgs),
+    Demo {
+        /// Folder for the report, plots and tables
+        #[arg(long, default_value = "ibr-report/demo")]
+        out: PathBuf,
+    },
     /// Shape and markers at given pressures, or the pressure for a target tip
     Predict(PredictArgs),
     /// A robot for a controller: tables as C code, or its linear form
@@ -154,13 +158,6 @@ pub(crate) struct BenchArgs {
     pub out: Option<PathBuf>,
     #[command(flatten)]
     pub shards: ShardArgs,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct OutDirArgs {
-    /// Folder for the report, plots and tables
-    #[arg(long, default_value = "ibr-report/demo")]
-    pub out: PathBuf,
 }
 
 #[derive(Debug, Args)]
