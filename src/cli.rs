@@ -266,7 +266,7 @@ pub(crate) struct CompareArgs {
 #[derive(Debug, Args)]
 pub(crate) struct RunsArgs {
     /// Folder of finished runs; missing ones are made there. Default: ibr-report/runs; with --paper only those that are there are
-    /// read, those of ibr simulate epam-paper and its like; default: the runs that come with the program
+    /// read, as ibr simulate epam-paper makes them; default: the runs that come with the program
     #[arg(long)]
     pub runs: Option<PathBuf>,
     /// Only the runs that come with the program: nothing is simulated

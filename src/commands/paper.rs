@@ -30,7 +30,7 @@ fn runs(args: &CompareArgs) -> Result<Vec<PaperRun>> {
     let message = "--paper takes no scenario and no --pressure";
     refuse_if(!args.inputs.is_empty() || args.pressure.is_some(), message, help)?;
     let found = args.runs.runs.as_deref().map_or_else(stored, runs_below)?;
-    refuse_if(found.is_empty(), "there is no finished run of the paper's model", help)?;
+    refuse_if(found.is_empty(), "no finished run of the paper's model was found", help)?;
     Ok(ordered(found))
 }
 

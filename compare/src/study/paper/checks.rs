@@ -1,11 +1,12 @@
 //! The checks of facts, on the finest mesh that has all runs a fact needs; three need the pattern or the fabric alone.
 
-use super::facts::{FactCase, FactCheck, FactFound, holds_if};
+use super::facts::{FactCase, FactCheck, FactFound, FactRow, FactVerdict, holds_if};
 use super::{Kinetic, MESHES_MM, PaperRun, ROBOTS, find, mesh_name};
 use crate::accuracy::paper_accuracy;
 use crate::policy;
 use crate::study::published::shipped_scenario;
 use data::published::printed;
+use data::{Published, PublishedFact};
 use models::Machine;
 use models::actuators::pattern::Pattern;
 use models::fabrics::shear_modulus;
@@ -35,6 +36,22 @@ pub(super) const CHECKS: &[FactCheck] = &[
     ("threshold", "modulus of the fPAM's fabric", threshold),
     ("layers", "pattern", layers),
 ];
+
+/// All facts of the paper with the checks of their names, in the order of its file.
+pub fn facts(paper: &Published, runs: &[PaperRun]) -> Vec<FactRow> {
+    let row = |fact: &PublishedFact| {
+        let case = FactCase { paper, runs, numbers: &fact.numbers };
+        let known = CHECKS.iter().find(|(id, ..)| *id == fact.id);
+        let (needs, found) = known.map_or(("check of it", None), |(_, needs, check)| (*needs, check(&case)));
+        let (found, verdict) = match found {
+            Some((found, None)) => (found, FactVerdict::Holds),
+            Some((found, Some(by))) => (found, FactVerdict::Misses(by)),
+            None => ("–".into(), FactVerdict::CannotBeChecked(format!("no {needs}"))),
+        };
+        FactRow { id: fact.id.clone(), place: fact.place.clone(), says: fact.says.clone(), found, verdict }
+    };
+    paper.facts.iter().map(row).collect()
+}
 
 fn joined(words: impl Iterator<Item = String>) -> String {
     words.collect::<Vec<_>>().join(", ")

@@ -1,19 +1,18 @@
-//! Every sentence of the paper that runs, or the patterns of its robots, can check, next to the result of the engine.
+//! A sentence of the paper and its verdict, and what it may be compared with.
 
-use super::checks::CHECKS;
 use super::{MESHES_MM, PaperRun, find};
-use data::{Published, PublishedFact};
+use data::Published;
 use serde::Serialize;
 
 /// Result of checking a sentence of the paper.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "is", content = "why", rename_all = "snake_case")]
 pub enum FactVerdict {
-    /// The engine says the same.
+    /// The engine agrees.
     Holds,
-    /// The engine says something else.
+    /// The engine gives something else.
     Misses(String),
-    /// There is no run that decides it.
+    /// No run decides it.
     CannotBeChecked(String),
 }
 
@@ -51,22 +50,6 @@ pub(super) type FactCheck = (&'static str, &'static str, fn(&FactCase) -> FactFo
 
 pub(super) fn holds_if(holds: bool, found: String, else_by: impl Into<String>) -> FactFound {
     Some((found, (!holds).then(|| else_by.into())))
-}
-
-/// All facts of the paper with the checks of their names, in the order of its file.
-pub fn facts(paper: &Published, runs: &[PaperRun]) -> Vec<FactRow> {
-    let row = |fact: &PublishedFact| {
-        let case = FactCase { paper, runs, numbers: &fact.numbers };
-        let known = CHECKS.iter().find(|(id, ..)| *id == fact.id);
-        let (needs, found) = known.map_or(("check of it", None), |(_, needs, check)| (*needs, check(&case)));
-        let (found, verdict) = match found {
-            Some((found, None)) => (found, FactVerdict::Holds),
-            Some((found, Some(by))) => (found, FactVerdict::Misses(by)),
-            None => ("–".into(), FactVerdict::CannotBeChecked(format!("no {needs}"))),
-        };
-        FactRow { id: fact.id.clone(), place: fact.place.clone(), says: fact.says.clone(), found, verdict }
-    };
-    paper.facts.iter().map(row).collect()
 }
 
 /// A fact with everything that it may be compared with.

@@ -8,7 +8,8 @@ mod runs;
 
 use crate::policy;
 use crate::study::engines::{EngineRun, EngineState, Listed};
-pub use facts::{FactRow, FactVerdict, facts};
+pub use checks::facts;
+pub use facts::{FactRow, FactVerdict};
 use fem::FemError;
 use fem::record::RecordShape;
 pub use implied::{HeightRow, Implied, against, heights};
