@@ -104,8 +104,9 @@ fn target(text: &str) -> Result<Target> {
 /// The pressures of a file, else of the command line or the scenario.
 fn asked(scenario: &Scenario, args: &PredictArgs) -> Result<Vec<Loads>> {
     let typed = args.pressure.as_deref();
-    let is_file =
-        |path: &&Path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv")) || path.exists();
+    let is_file = |path: &&Path| {
+        path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv")) || path.exists() && !path.is_dir()
+    };
     let Some(file) = typed.map(Path::new).filter(is_file) else { return wanted(scenario, typed) };
     let message = "--pressure FILE for a beam, which has no actuator";
     refuse_if(!scenario.actuator.exists(), message, "leave it out")?;

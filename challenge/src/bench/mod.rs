@@ -5,7 +5,6 @@
 //! given instead and the separation λ of truth and name.
 
 mod cases;
-mod covered;
 mod faults;
 mod follow;
 mod made;
@@ -195,7 +194,7 @@ impl PlannedBench {
                 table::rows(&outcomes),
                 surplus::rows(&surplus),
                 faults::rows(&faults),
-                covered::rows(
+                table::covered(
                     &outcomes,
                     faults.iter().filter_map(FaultSet::holds).chain(surplus.iter().filter_map(SurplusSet::holds)),
                 ),

@@ -4,6 +4,7 @@ use super::outcome::{Lot, Named, SetOutcome, names};
 use super::row::{Goal, Rate};
 use crate::Hiding;
 use Goal::{AtLeast, AtMost, Between};
+use compare::policy;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -35,6 +36,10 @@ const ALONE_IN_SET: Counted = (IN_SET.0, AtLeast(0.90), IN_SET.2);
 const OUTSIDE: Counted = ("with an alarm: called outside the catalogue", AtMost(0.05), |n| n.score.out_of_catalog);
 const NOTHING: Lot = Lot::Hidden(Hiding::Nothing);
 const ONE: Lot = Lot::Hidden(Hiding::One);
+
+/// Share of the names called identified that are true, and what the share printed with a set may be off by.
+const TARGET: f64 = 0.95;
+const WITHIN: f64 = 0.03;
 
 type NamedOutcomes<'o> = Vec<(&'o SetOutcome, &'o Named)>;
 
@@ -184,4 +189,18 @@ pub(super) fn confusion(outcomes: &[SetOutcome]) -> Vec<Confusion> {
     let mut all: Vec<Confusion> = cells.collect();
     all.sort_by(|a, b| (&a.truth, b.count, &a.named).cmp(&(&b.truth, a.count, &b.named)));
     all
+}
+
+/// How often a stated set holds the truth, over all sets with a verdict that names: the figure that is printed with a set; `others`: whether the stated sets of other parts contain the truth.
+pub(super) fn covered(outcomes: &[SetOutcome], others: impl Iterator<Item = bool>) -> Vec<Rate> {
+    let named = outcomes.iter().filter_map(|o| o.named.as_ref());
+    let stated = named.filter(|n| n.score.set_size > 0).map(|n| n.score.in_set);
+    let hits: Vec<bool> = stated.chain(others).collect();
+    let printed = Between(policy::COVERED - WITHIN, policy::COVERED + WITHIN);
+    let hidden = outcomes.iter().filter(|o| !o.truth.effects.is_empty()).filter_map(|o| o.named.as_ref());
+    let sure: Vec<bool> = hidden.filter(|n| n.identified).map(|n| n.score.in_set).collect();
+    vec![
+        Rate::share("every stated set", "it holds a true effect, as is printed", printed, &hits),
+        Rate::share("one name, called identified", "it is the truth", AtLeast(TARGET), &sure),
+    ]
 }
