@@ -48,7 +48,11 @@ pub(crate) struct Cli {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     /// The whole story on embedded data, with a report
-    Demo(OutDirArgs),
+    Demo {
+        /// Folder for the report, plots and tables
+        #[arg(long, default_value = "ibr-report/demo")]
+        out: PathBuf,
+    },
     /// Shape and markers at given pressures, or the pressure for a target tip
     Predict(PredictArgs),
     /// How far and how fast a robot grows by eversion, and whether its tail retracts it
@@ -121,9 +125,6 @@ pub(crate) struct StudioArgs {
     /// Port on 127.0.0.1; 0 for a free one
     #[arg(long, default_value_t = 0)]
     pub port: u16,
-    /// The page; default: web/dist/ibr.html here, or ibr.html next to the program
-    #[arg(long, value_name = "FILE")]
-    pub page: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
@@ -141,8 +142,9 @@ pub(crate) struct VerifyArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct BenchArgs {
-    /// model, fem or discovery: how often a diagnosis is right on data with hidden effects
-    #[arg(value_parser = ["model", "fem", "discovery"], default_value = "model")]
+    /// model; fem; runs: fem and whole runs, pillows of the nodes of up to 80 000 triangles and the four robots, about two minutes;
+    /// discovery: how often a diagnosis is right on data with hidden effects
+    #[arg(value_parser = ["model", "fem", "runs", "discovery"], default_value = "model")]
     pub what: String,
     /// With discovery: sets without and with one hidden effect; the default takes seconds, 200 are the full bench
     #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u64).range(1..=100_000))]
@@ -158,16 +160,6 @@ pub(crate) struct BenchArgs {
     pub out: Option<PathBuf>,
     #[command(flatten)]
     pub shards: ShardArgs,
-    /// With fem: also whole runs, pillows of the nodes of up to 80 000 triangles and the four robots, about two minutes
-    #[arg(long)]
-    pub all: bool,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct OutDirArgs {
-    /// Folder for the report, plots and tables
-    #[arg(long, default_value = "ibr-report/demo")]
-    pub out: PathBuf,
 }
 
 #[derive(Debug, Args)]
@@ -193,13 +185,11 @@ pub(crate) struct PredictArgs {
     #[command(flatten)]
     pub robot: RobotArgs,
     /// Actuator pressures with unit, for example 10kPa,20kPa, or from 0 to 30 in steps: 0:30:0.01kPa; `/` separates supply
-    /// channels. With an effect that has history (friction, creep, plastic_set, leak) they are one path in this order, 5 s
+    /// channels; or a CSV file with a line for each pose, whose first names the columns: p_kpa, or p0_kpa,p1_kpa; also
+    /// p_body_kpa. With an effect that has history (friction, creep, plastic_set, leak) they are one path in this order, 5 s
     /// each, from rest
     #[arg(long, short, allow_hyphen_values = true)]
     pub pressure: Option<String>,
-    /// A CSV file of pressures, a line for each pose; the first names the columns: p_kpa, or p0_kpa,p1_kpa; also p_body_kpa
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["pressure", "inverse", "follow"])]
-    pub pressures: Option<PathBuf>,
     /// Find the pressure instead: tip=100mm (height) or angle=60deg (total bend); or 300mm,120mm: the pressures of all supply
     /// channels that bring the tip nearest to this x, y
     #[arg(long, short, conflicts_with = "pressure")]
@@ -251,24 +241,21 @@ pub(crate) struct PatternArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct CompareArgs {
-    /// Scenario file or shipped robot, then marker data; with --engines or --paper any number of scenarios, the paper's if none
+    /// Scenario file or shipped robot, then marker data; with --engines any number of scenarios, the paper's if none
     #[arg(value_name = "SCENARIO DATA")]
     pub inputs: Vec<String>,
     /// Hold the reduced model and finite element runs against each other and against the published numbers
-    #[arg(long, visible_alias = "published", conflicts_with_all = ["calibrate", "effect", "sigma", "max_error"])]
+    #[arg(long, conflicts_with_all = ["calibrate", "effect", "sigma", "max_error"])]
     pub engines: bool,
-    /// The paper's finite elements, reproduced: runs with its own modelling choices, compared with what it prints, fact by fact
+    /// The paper's finite elements, reproduced: runs with its own modelling choices, compared with what it prints
     #[arg(long, conflicts_with_all = ["engines", "calibrate", "effect", "sigma", "max_error"])]
     pub paper: bool,
     #[command(flatten)]
     pub runs: RunsArgs,
-    /// With --paper and --runs: meshes of the runs, body and actuator; the paper's final one is 4mm/1mm and takes hours
-    #[arg(long, value_name = "[BODY/]ACTUATOR", requires_all = ["paper", "runs"], default_value = "4mm", allow_hyphen_values = true)]
-    pub mesh: String,
     /// With --engines: runs of every robot, with other random imperfections each
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1000))]
     pub seeds: u64,
-    /// Actuator pressures of the runs; default: the scenario's, and with --paper also 11, 12 and 13 kPa of the cPAM
+    /// Actuator pressures of the runs; default: the scenario's
     #[arg(long, allow_hyphen_values = true)]
     pub pressure: Option<String>,
     /// Also fit the bending stiffness B to these data, or with =body-pressure the body's pressure, and show what that brings
@@ -289,8 +276,8 @@ pub(crate) struct CompareArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct RunsArgs {
-    /// Folder of finished runs; missing ones are made there. Default: ibr-report/runs; with --paper the runs that come
-    /// with the program
+    /// Folder of finished runs; missing ones are made there. Default: ibr-report/runs; with --paper only those that are there are
+    /// read, as ibr simulate epam-paper makes them; default: the runs that come with the program
     #[arg(long)]
     pub runs: Option<PathBuf>,
     /// Only the runs that come with the program: nothing is simulated

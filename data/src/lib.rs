@@ -54,9 +54,7 @@ pub use lost::losses;
 pub use parquet::read_parquet;
 pub use policy::is_a_room;
 pub use predicted::{Predictions, parse_predictions};
-pub use published::{
-    Published, PublishedActuator, PublishedFabric, PublishedFact, PublishedProtocol, PublishedSimulation, published,
-};
+pub use published::{Published, PublishedActuator, PublishedFabric, PublishedFact, PublishedProtocol, published};
 pub use read::{ReadOptions, markers_of_table, parse_markers, read_markers};
 pub use sets::{SetInfo, set_about, set_file, sets};
 pub use table::{Column, Table};

@@ -48,7 +48,6 @@ pub(crate) enum DataCommand {
         /// Marker data
         data: String,
         /// The robot's scenario, whose model is asked whether a column of pressures is in another unit; default: the one in the folder of the data
-        #[arg(long)]
         scenario: Option<String>,
     },
     /// Embedded datasets
@@ -79,9 +78,6 @@ pub(crate) struct DataFemArgs {
     /// Body pressure; left out: the scenario's
     #[arg(long, allow_hyphen_values = true)]
     pub body_pressure: Option<String>,
-    /// Seed of camera, pressure and alignment
-    #[arg(long, default_value_t = 1)]
-    pub seed: u64,
     #[command(flatten)]
     pub scatter: ScatterArgs,
 }
@@ -91,24 +87,13 @@ pub(crate) struct ScatterArgs {
     /// Camera noise of one coordinate
     #[arg(long, default_value = "1mm", allow_hyphen_values = true)]
     pub sigma: String,
-    /// Run-to-run scatter of the actuator pressure in per cent
-    #[arg(long, default_value_t = 2.0, allow_negative_numbers = true)]
-    pub pressure_scatter: f64,
-    /// Run-to-run shift of the camera
-    #[arg(long, default_value = "0.5mm", allow_hyphen_values = true)]
-    pub alignment: String,
-    /// Scatter of the pressure from hold to hold of a run in per cent
-    #[arg(long, default_value_t = 2.0, allow_negative_numbers = true)]
-    pub hold_scatter: f64,
-    /// Shift of the camera from hold to hold of a run
-    #[arg(long, default_value = "0.5mm", allow_hyphen_values = true)]
-    pub hold_alignment: String,
-    /// Error of a marker that lasts through a hold, as of a tracker
-    #[arg(long, default_value = "0.5mm", allow_hyphen_values = true)]
-    pub lasting: String,
-    /// White camera noise and scatter of runs alone: nothing from hold to hold, nothing that lasts
-    #[arg(long, conflicts_with_all = ["hold_scatter", "hold_alignment", "lasting"])]
-    pub white: bool,
+    /// Another scatter: pressure=2% and alignment=0.5mm of the camera from run to run; hold_pressure=2% and hold_alignment=0.5mm from
+    /// hold to hold; lasting=0.5mm of a marker through a hold, as of a tracker; white: nothing from hold to hold, nothing that lasts
+    #[arg(long, value_delimiter = ',', value_name = "KEY=VALUE")]
+    pub scatter: Vec<String>,
+    /// Seed of the scatter
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
 }
 
 #[derive(Debug, Args)]
@@ -118,9 +103,6 @@ pub(crate) struct GenerateArgs {
     /// Folder for markers.csv, about.toml and truth.toml
     #[arg(long)]
     pub out: PathBuf,
-    /// Seed of the scatter
-    #[arg(long, default_value_t = 1)]
-    pub seed: u64,
     /// Runs
     #[arg(long, default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..=10_000))]
     pub runs: u64,

@@ -121,7 +121,7 @@ pub(crate) enum ChallengeCommand {
         /// Folder of the challenge
         folder: PathBuf,
         /// What `ibr diagnose SCENARIO DATA --json` printed
-        #[arg(long, value_name = "JSON")]
+        #[arg(value_name = "JSON")]
         diagnosis: Option<PathBuf>,
     },
     /// Many blind cases with their rules, as plain files that any tool can enter
@@ -171,9 +171,9 @@ pub(crate) struct ChallengeNewArgs {
     /// Actuator pressures in kPa at a body pressure in kPa; default: 0,10,20,30,0@2
     #[arg(long)]
     pub protocol: Option<String>,
-    /// White camera noise and scatter of runs alone: nothing from hold to hold, nothing that lasts
-    #[arg(long)]
-    pub white: bool,
+    /// white: camera noise and scatter of runs alone, nothing from hold to hold, nothing that lasts
+    #[arg(long, value_parser = ["white"])]
+    pub scatter: Option<String>,
 }
 
 #[derive(Debug, Args)]

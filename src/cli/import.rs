@@ -12,18 +12,13 @@ pub(crate) struct Import {
     /// Table of time and pressures for all runs; several: one for every file
     #[arg(long, value_name = "LOG")]
     pub pressure: Vec<PathBuf>,
-    /// 3.1px/mm, 0.32mm/px, or the unit of the file's numbers: mm, cm, m
+    /// 3.1px/mm, 0.32mm/px, or the unit of the file's numbers: mm, cm, m; or two markers, or two places in the picture, and their
+    /// distance: a:b=40mm or 10,20:300,25=90mm
     #[arg(long)]
     pub scale: Option<String>,
-    /// Two markers, or two places in the picture, and their distance: a:b=40mm or 10,20:300,25=90mm
-    #[arg(long, value_name = "A:B=LENGTH", conflicts_with = "scale")]
-    pub known_distance: Option<String>,
-    /// Corners of a checkerboard in the plane of the markers: a table column,row,x,y
-    #[arg(long, value_name = "FILE", requires = "square", conflicts_with_all = ["scale", "known_distance"])]
-    pub board: Option<PathBuf>,
-    /// Side of a square of the checkerboard
-    #[arg(long, value_name = "LENGTH", requires = "board")]
-    pub square: Option<String>,
+    /// Corners of a checkerboard in the plane of the markers, a table column,row,x,y, and the side of a square: corners.csv=25mm
+    #[arg(long, value_name = "FILE=LENGTH", conflicts_with = "scale")]
+    pub board: Option<String>,
     /// The robot's base: X,Y as the file counts, or a marker
     #[arg(long, value_name = "X,Y|MARKER", allow_hyphen_values = true)]
     pub base: Option<String>,

@@ -18,8 +18,8 @@ pub(super) fn run(args: &BenchArgs, context: &mut Context) -> Result<Outcome> {
     refuse_if(args.out.is_some() || args.shards.asked(), message, help)?;
     let progress = &mut |what: &str, share| (context.progress)(what, share);
     let answer = match args.what.as_str() {
-        "fem" => engine::measure(args.all, &machine(), progress),
-        _ => model::measure(&machine(), progress),
+        "model" => model::measure(&machine(), progress),
+        what => engine::measure(what == "runs", &machine(), progress),
     };
     Ok(show(answer?))
 }

@@ -21,7 +21,8 @@ pub(super) fn run(command: &ChallengeCommand, context: &mut Context) -> Result<O
 
 fn make(args: &ChallengeNewArgs, context: &mut Context) -> Result<Outcome> {
     check_set_folder(&args.out, context.force)?;
-    let ChallengeNewArgs { seed, effect, actuator, runs, sigma, protocol, white, .. } = args.clone();
+    let ChallengeNewArgs { seed, effect, actuator, runs, sigma, protocol, scatter: white, .. } = args.clone();
+    let white = white.is_some();
     let camera_sd_m = sigma.map(|text| scatter("--sigma", &text)).transpose()?;
     let riddle =
         Riddle { seed, effects: effect, actuator, runs: runs.map(|n| n as usize), camera_sd_m, protocol, white };
@@ -31,7 +32,7 @@ fn make(args: &ChallengeNewArgs, context: &mut Context) -> Result<Outcome> {
     let text = format!(
         "A sealed challenge is in {folder}: {} runs of a robot with actuator {}.\nSeal (SHA-256): {}\n\
          Look for what is hidden:   ibr diagnose {folder}/scenario.toml {folder} --json > answer.json\n\
-         Open the seal afterwards:  ibr challenge reveal {folder} --diagnosis answer.json\n",
+         Open the seal afterwards:  ibr challenge reveal {folder} answer.json\n",
         made.dataset.runs.len(),
         made.dataset.actuator,
         made.sha256

@@ -61,15 +61,11 @@ fn in_space_words(dataset: &Dataset) -> String {
     let more = dataset.more_channels();
     let channels = (more > 0).then(|| format!("pressures of {} supply channels", more + 1));
     let words: Vec<String> = z.into_iter().chain(channels).collect();
-    format!(
-        "{}: the robot's model finds exchanged columns of them: give its scenario with --scenario",
-        words.join(", ")
-    )
+    format!("{}: the robot's model finds exchanged columns of them: ibr data check DATA SCENARIO", words.join(", "))
 }
 
 fn make(args: &GenerateArgs, context: &mut Context) -> Result<Outcome> {
-    let generator =
-        Generator { seed: args.seed, runs: args.runs as usize, gauge: args.gauge, ..scattered(&args.scatter)? };
+    let generator = Generator { runs: args.runs as usize, gauge: args.gauge, ..scattered(&args.scatter)? };
     let generator = generator.with_protocol(&args.protocol)?;
     check_set_folder(&args.out, context.force)?;
     let named = ibr::studies::scenario(&args.scenario)?;

@@ -22,7 +22,6 @@ pub(super) fn run(args: &DataFemArgs, context: &mut Context) -> Result<Outcome> 
     refuse_if(!kpa.is_sorted_by(|a, b| a < b), message, help)?;
     let body_pa = scenario.p_body_pa;
     let generator = Generator {
-        seed: args.seed,
         runs: args.seeds as usize,
         protocol: std::iter::once(0.0).chain(kpa.iter().map(|p| p * 1e3)).map(|p| [body_pa, p]).collect(),
         ..scattered(&args.scatter)?
@@ -38,7 +37,7 @@ pub(super) fn run(args: &DataFemArgs, context: &mut Context) -> Result<Outcome> 
         format!("Finite element markers of {}, {} runs with imperfections of their own", first.scenario, runs.len());
     about.source = format!(
         "synthetic: finite elements, engine {}, {} mm elements, numbers {}; ibr data fem, seed {}",
-        first.engine, first.mesh_mm[1], first.known, args.seed
+        first.engine, first.mesh_mm[1], first.known, args.scatter.seed
     );
     write_dataset(&args.out, &dataset, &about, robot.text, &inputs::named(&truth, [])?, context)?;
     let text = format!(

@@ -78,8 +78,8 @@ fn files(made: &Imported) -> Result<Files> {
 }
 
 fn inputs(args: &Import) -> Vec<Input> {
-    let read = args.files.iter().chain(&args.pressure).chain(&args.board);
-    read.map(|path| read_input(path)).collect()
+    let board = args.board.as_deref().and_then(|board| board.rsplit_once('=')).map(|(file, _)| Path::new(file));
+    args.files.iter().chain(&args.pressure).map(PathBuf::as_path).chain(board).map(read_input).collect()
 }
 
 fn told(made: &Imported) -> String {

@@ -203,22 +203,6 @@ fn rounds_text(wish: &Wish, rounds: &Rounds) -> String {
         std::iter::once("design").chain(keys).chain(["model", "corrected", "finite elements"]).collect();
     let mut text = "\nDesigns and their largest miss [mm]: by the model, by the model corrected by finite elements, and by finite elements.\n".to_string();
     text += &TextTable::finished(&head, 0, rounds.all.iter().enumerate().map(row).collect()).text();
-    let parts =
-        rounds.all.iter().enumerate().flat_map(|(k, round)| {
-            round.design.misses.iter().enumerate().map(move |(at, miss)| (k + 1, round, at, miss))
-        });
-    text += "\n";
-    text += &TextTable::of(parts)
-        .words("design", |(number, ..)| number.to_string())
-        .words("wish [mm]", |(.., miss)| &miss.what)
-        .right("model, predicted", |(.., miss)| shown(&miss.found))
-        .right("corrected by finite elements", |(_, round, at, _)| {
-            round.corrected.as_ref().map_or("none".into(), |all| shown(&all[*at].found))
-        })
-        .right("finite elements", |(_, round, _, miss)| {
-            round.by_elements(&miss.what).map_or("not read".into(), |other| shown(&other.found))
-        })
-        .text();
     text += &match (best, rounds.all.len()) {
         (_, 1) => "The first design is written.".to_string(),
         (0, _) => {

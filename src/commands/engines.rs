@@ -5,8 +5,7 @@ use crate::cli::CompareArgs;
 use crate::prelude::*;
 use crate::shown::engines as shown;
 use compare::study::engines::{
-    BodyVolumes, EngineLine, EnginePair, EngineRun, Engines, all_runs, engines, lines, runs_json, runs_of, seed_jobs,
-    stored,
+    EngineLine, EnginePair, EngineRun, Engines, all_runs, engines, lines, runs_json, runs_of, seed_jobs, stored,
 };
 use fem::session::RunSource;
 use ibr::pages::engines_page;
@@ -51,8 +50,6 @@ struct EnginesAnswer<'a> {
     lines: &'a [EngineLine],
     /// Energies of both engines, robot by robot
     ledgers: Vec<RobotLedgers<'a>>,
-    /// Volumes of body and actuator in both engines
-    volumes: Vec<&'a BodyVolumes>,
 }
 
 #[derive(Serialize)]
@@ -65,8 +62,7 @@ struct RobotLedgers<'a> {
 
 fn engines_answer<'a>(lines: &'a [EngineLine], engines: &'a Engines) -> EnginesAnswer<'a> {
     let ledgers = engines.robots.iter().map(|r| RobotLedgers { robot: &r.scenario.name, pairs: &r.pairs });
-    let volumes = engines.robots.iter().flat_map(|r| &r.bodies).collect();
-    EnginesAnswer { lines, ledgers: ledgers.collect(), volumes }
+    EnginesAnswer { lines, ledgers: ledgers.collect() }
 }
 
 fn text(lines: &[EngineLine], Engines { robots, .. }: &Engines) -> Result<String> {
@@ -75,7 +71,6 @@ fn text(lines: &[EngineLine], Engines { robots, .. }: &Engines) -> Result<String
         shown::line_table(lines).under(shown::LINES),
         shown::branches(robots).under(shown::BRANCHES),
         shown::ledgers(robots).under(shown::LEDGERS),
-        shown::volume_table(robots).under(shown::VOLUMES),
     ];
     Ok(tables.concat().trim_start().to_string())
 }

@@ -3,7 +3,7 @@
 use super::inputs::{bounded, positive, quantity};
 use crate::cli::Import;
 use crate::prelude::*;
-use data::import::typed::{axes, column, known_distance, station};
+use data::import::typed::{axes, column, station};
 use data::import::{ImportOptions, Scale, read_board};
 use spelling::quantity::Quantity;
 use spelling::units::Range;
@@ -45,13 +45,14 @@ pub(crate) fn options(args: &Import) -> Result<ImportOptions> {
 }
 
 fn scale(args: &Import) -> Result<Scale> {
-    if let (Some(board), Some(square)) = (&args.board, &args.square) {
-        let square_m = positive("--square", Some(square))?.unwrap_or_default();
-        return Ok(Scale::Board(read_board(board)?, square_m));
-    }
-    let known = optional(&args.known_distance, |text| understood("--known-distance", known_distance(text)))?;
-    let typed = optional(&args.scale, |text| understood("--scale", text.parse()))?;
-    Ok(known.or(typed).unwrap_or_default())
+    let Some(board) = &args.board else {
+        return Ok(optional(&args.scale, |text| understood("--scale", text.parse()))?.unwrap_or_default());
+    };
+    let message = format!("--board {board} has no side of a square");
+    let unsized_board = || Failure::usage(message, "write for example --board corners.csv=25mm");
+    let (file, square) = board.rsplit_once('=').ok_or_else(unsized_board)?;
+    let square_m = positive("--board FILE=LENGTH", Some(&square.to_string()))?.unwrap_or_default();
+    Ok(Scale::Board(read_board(Path::new(file))?, square_m))
 }
 
 fn optional<T>(text: &Option<String>, read: impl Fn(&str) -> Result<T>) -> Result<Option<T>> {

@@ -139,27 +139,32 @@ pub(super) fn positive(option: &str, text: Option<&String>) -> Result<Option<f64
 }
 
 pub(super) fn scattered(args: &ScatterArgs) -> Result<Generator> {
-    let share = |option: &str, percent: f64| match percent {
-        percent if (0.0..=50.0).contains(&percent) => Ok(percent / 100.0),
-        _ => {
-            let message = format!("{option} {percent} is not from 0 to 50 per cent");
-            Err(Failure::usage(message, "2 is usual"))
+    let (camera_sd_m, per_hold) = (scatter("--sigma", &args.sigma)?, HoldScatter::USUAL);
+    let mut scattered = Generator { seed: args.seed, camera_sd_m, per_hold, ..Generator::default() };
+    for typed in &args.scatter {
+        let (key, value) = typed.split_once('=').unwrap_or((typed, ""));
+        let option = format!("--scatter {key}");
+        let share = || match value.trim_end_matches('%').trim().parse::<f64>() {
+            Ok(percent) if (0.0..=50.0).contains(&percent) => Ok(percent / 100.0),
+            _ => Err(Failure::usage(format!("{option}={value} is not from 0 to 50 per cent"), "2% is usual")),
+        };
+        let length = || scatter(&option, value);
+        let per_hold = &mut scattered.per_hold;
+        match key {
+            "white" => *per_hold = HoldScatter::default(),
+            "pressure" => scattered.pressure_sd = share()?,
+            "alignment" => scattered.alignment_sd_m = length()?,
+            "hold_pressure" => per_hold.pressure_sd = share()?,
+            "hold_alignment" => per_hold.alignment_sd_m = length()?,
+            "lasting" => per_hold.lasting_sd_m = length()?,
+            _ => {
+                let known = ["white", "pressure", "alignment", "hold_pressure", "hold_alignment", "lasting"];
+                let help = spelling::known(key, &known);
+                return Err(Failure::usage(format!("{option} is not known"), help));
+            }
         }
-    };
-    let typed = HoldScatter {
-        pressure_sd: share("--hold-scatter", args.hold_scatter)?,
-        alignment_sd_m: scatter("--hold-alignment", &args.hold_alignment)?,
-        rotation_sd: HoldScatter::USUAL.rotation_sd,
-        lasting_sd_m: scatter("--lasting", &args.lasting)?,
-    };
-    let per_hold = if args.white { HoldScatter::default() } else { typed };
-    Ok(Generator {
-        camera_sd_m: scatter("--sigma", &args.sigma)?,
-        alignment_sd_m: scatter("--alignment", &args.alignment)?,
-        pressure_sd: share("--pressure-scatter", args.pressure_scatter)?,
-        per_hold,
-        ..Generator::default()
-    })
+    }
+    Ok(scattered)
 }
 
 /// A scatter of lengths as typed \[m\].

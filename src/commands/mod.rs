@@ -40,7 +40,7 @@ use crate::failure::{Failure, Result};
 
 pub(crate) fn run(command: &Command, context: &mut Context) -> Result<Outcome> {
     match command {
-        Command::Demo(out) => demo::run(&out.out, context),
+        Command::Demo { out } => demo::run(out, context),
         Command::Predict(args) => predict::run(args, context),
         Command::Grow(args) => grow::run(args),
         Command::Export(command) => export::run(command, context),

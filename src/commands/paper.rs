@@ -1,16 +1,14 @@
 //! `ibr compare --paper`: the paper's finite elements, reproduced.
 
-use super::fem_inputs::{kept, pressures, robots, sizes};
 use crate::cli::CompareArgs;
 use crate::prelude::*;
-use compare::study::engines::runs_of;
 use compare::study::paper::{
-    FactRow, HeightRow, MESHES_MM, PaperRun, facts, heights, jobs, mesh_name, ordered, runs_below, runs_json, stored,
+    FactRow, HeightRow, MESHES_MM, PaperRun, facts, heights, mesh_name, ordered, runs_below, runs_json, stored,
 };
 
 pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome> {
     args.out.as_deref().map_or(Ok(()), check_folder)?;
-    let runs = runs(args, context)?;
+    let runs = runs(args)?;
     let paper = data::published()?;
     let (against, rows) = (heights(&paper, &runs, &MESHES_MM), facts(&paper, &runs));
     let text = shown(&against, &rows, &runs);
@@ -26,21 +24,14 @@ pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome> 
     Ok(outcome)
 }
 
-/// Stored runs, or all in the folder; missing runs are made there.
-fn runs(args: &CompareArgs, context: &mut Context) -> Result<Vec<PaperRun>> {
-    let Some(folder) = &args.runs.runs else {
-        if !args.inputs.is_empty() || args.pressure.is_some() {
-            let help = "add --runs FOLDER to make runs; without it all that come with the program are printed";
-            return Err(Failure::usage("--paper alone takes no scenario and no --pressure", help));
-        }
-        return Ok(ordered(stored()?));
-    };
-    let kpa = args.pressure.as_deref().map(pressures).transpose()?;
-    let jobs = jobs(&robots(&args.inputs)?.0, &sizes(&args.mesh)?, kpa.as_deref())?;
-    let settings = kept(folder, context);
-    let made = context.fem(|progress| runs_of(&jobs, &settings, progress))?;
-    made.into_iter().collect::<Result<Vec<_>, _>>()?;
-    Ok(ordered(runs_below(folder)?))
+/// Stored runs, or all in the folder.
+fn runs(args: &CompareArgs) -> Result<Vec<PaperRun>> {
+    let help = "ibr simulate epam-paper --out FOLDER/epam makes runs, and --runs FOLDER compares them";
+    let message = "--paper takes no scenario and no --pressure";
+    refuse_if(!args.inputs.is_empty() || args.pressure.is_some(), message, help)?;
+    let found = args.runs.runs.as_deref().map_or_else(stored, runs_below)?;
+    refuse_if(found.is_empty(), "no finished run of the paper's model was found", help)?;
+    Ok(ordered(found))
 }
 
 /// `ibr.paper`: `ibr compare --paper`
@@ -78,11 +69,11 @@ fn shown(against: &[HeightRow], rows: &[FactRow], runs: &[PaperRun]) -> String {
             .right(format!("marker {}", k + 1), |a| a.markers_mm.get(k).map_or(String::new(), |mm| format!("{mm:.1}")));
     }
     out += &markers.text();
-    out += "\nEvery sentence of the paper with something to check\n";
+    out += "\nSentences of the paper that runs or patterns can check\n";
     out += &TextTable::of(rows)
         .words("the paper states", |r| &r.says)
         .words("in", |r| &r.place)
-        .words("engine, or the paper elsewhere", |r| &r.found)
+        .words("engine", |r| &r.found)
         .words("verdict", |r| r.verdict.words())
         .text();
     out + &counted(rows) + &numerics(runs)
@@ -104,7 +95,7 @@ fn place(against: &[HeightRow]) -> TextTable<&HeightRow> {
 
 /// How many facts hold, miss, contradict each other or cannot be checked.
 fn counted(rows: &[FactRow]) -> String {
-    let kinds = ["holds", "misses", "contradicts itself", "cannot be checked"];
+    let kinds = ["holds", "misses", "cannot be checked"];
     let count = |kind: &str| rows.iter().filter(|row| row.verdict.words().starts_with(kind)).count();
     let words = kinds.map(|kind| format!("{kind} {}", count(kind))).join(", ");
     format!("\n{} facts: {words}.\n", rows.len())

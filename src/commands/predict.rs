@@ -103,8 +103,12 @@ fn target(text: &str) -> Result<Target> {
 
 /// The pressures of a file, else of the command line or the scenario.
 fn asked(scenario: &Scenario, args: &PredictArgs) -> Result<Vec<Loads>> {
-    let Some(file) = &args.pressures else { return wanted(scenario, args.pressure.as_deref()) };
-    let message = "--pressures for a beam, which has no actuator";
+    let typed = args.pressure.as_deref();
+    let is_file = |path: &&Path| {
+        path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv")) || path.exists() && !path.is_dir()
+    };
+    let Some(file) = typed.map(Path::new).filter(is_file) else { return wanted(scenario, typed) };
+    let message = "--pressure FILE for a beam, which has no actuator";
     refuse_if(!scenario.actuator.exists(), message, "leave it out")?;
     Ok(ibr::pressures_of(scenario, file, MOST)?)
 }

@@ -14,15 +14,11 @@ pub(super) fn run(args: &StudioArgs, context: &mut Context) -> Result<Outcome> {
     if context.json {
         return Err(Failure::usage("ibr studio serves a page and has no answer", "leave --json out"));
     }
-    let page = match (&args.page, built::PAGE) {
-        (None, Some(page)) => page.to_string(),
-        (given, _) => {
-            let path = given.clone().unwrap_or_else(|| PathBuf::from(CHECKOUT));
-            let help = "this program was built without a page: build one with web/build.sh in a checkout, and name it with --page";
-            let absent = |cause| Failure::usage(format!("no page at {}: {cause}", path.display()), help);
-            std::fs::read_to_string(&path).map_err(absent)?
-        }
-    };
+    let help =
+        "this program was built without a page: build one with web/build.sh in a checkout, and start ibr studio there";
+    let absent = |cause| Failure::usage(format!("no page at {CHECKOUT}: {cause}"), help);
+    let page = built::PAGE.map_or_else(|| std::fs::read_to_string(CHECKOUT), |page| Ok(page.to_string()));
+    let page = page.map_err(absent)?;
     let studio = Studio::open(&page, args.port).map_err(|cause| {
         Failure::usage(
             format!("port {} cannot be used: {cause}", args.port),

@@ -61,37 +61,6 @@ pub(super) fn bars(engines: &Engines) -> Result<Option<Drawn>> {
     Ok(Some(plots::bars("Outermost marker at 30 kPa", "displacement [mm]", &groups, &series, None)?))
 }
 
-const MOST_SERIES: usize = 24;
-
-/// χ over actuator pressure, a colour per robot: symbols with the scatter of seeds at its own body pressure, dashed below it
-/// and solid above; `None` where nothing is known of it.
-pub(super) fn displaced(robots: &[EngineRobot]) -> Result<Option<Drawn>> {
-    let mut series = Vec::new();
-    for (colour, robot) in robots.iter().enumerate() {
-        for body in &robot.bodies {
-            let known = body.states.iter().filter_map(|v| Some((v.actuator_kpa, v.displaced?)));
-            let (points, half_width): (Vec<[f64; 2]>, Vec<f64>) =
-                known.map(|(kpa, (mean, sd))| ([kpa, mean], sd.unwrap_or(0.0))).unzip();
-            let style = match (body.own, body.body_kpa * 1e3 < robot.scenario.p_body_pa) {
-                (true, _) => LineStyle::LinePoints,
-                (false, true) => LineStyle::Dashed,
-                (false, false) => LineStyle::Line,
-            };
-            let name = format!("{}, body {} kPa", body.actuator, body.body_kpa);
-            let line = LineSeries::new(name, style, points).with_errors(half_width);
-            series.push((body.own, line.coloured(colour)));
-        }
-    }
-    // Of more than a plot holds, robots at their own body pressure come first.
-    series.sort_by_key(|(own, _)| !own);
-    let series: Vec<_> = series.into_iter().map(|s| s.1).filter(|s| !s.points.is_empty()).take(MOST_SERIES).collect();
-    if series.is_empty() {
-        return Ok(None);
-    }
-    let (x, y) = ("actuator pressure [kPa]", "displaced per actuator volume χ [-]");
-    Ok(Some(plots::lines(&Lines::new("Body volume lost beyond πR³ × turn", x, y, series))?))
-}
-
 /// Outermost marker over pressure: both engines, every seed of the finite elements.
 pub(super) fn curve(robot: &EngineRobot) -> Result<Drawn> {
     let reduced = robot.pairs.iter().map(|p| [p.actuator_kpa, p.reduced_mm[0]]);

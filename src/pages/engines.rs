@@ -1,6 +1,6 @@
 //! Both engines and the published numbers on one page: displacement, accuracy, ledgers, and where the models part.
 
-use super::engine_figures::{bars, curve, displaced, ledger, parting_plot};
+use super::engine_figures::{bars, curve, ledger, parting_plot};
 use super::{Maker, PAPER, Result, Values, marker_intervals, what_to_measure};
 use crate::prelude::*;
 use crate::shown::engines as shown;
@@ -23,22 +23,17 @@ pub(crate) fn engines_page(engines: &Engines, maker: &Maker) -> Result<Files> {
         files.plot(&format!("{kind}_engines_ledger"), ledger(robot)?);
         kinds.push(kind);
     }
-    if let Some(drawn) = displaced(&engines.robots)? {
-        files.plot("volumes", drawn);
-    }
     for (k, map) in engines.maps.iter().enumerate() {
         let name = format!("breakdown_{}_{k}", map.actuator);
         files.plot(&name, parting_plot(map)?);
         maps.push(Values::new().with("name", name).with("mesh_mm", map.mesh_mm));
     }
-    let volumes = shown::volume_table(&engines.robots);
     let values = Values::new()
         .with("title", "Two engines against the published displacements")
         .with("lead", lead(engines))
         .with("cubes", cubes)
         .with("kinds", kinds)
         .with("maps", maps)
-        .with("volumes", (!volumes.is_empty()).then(|| volumes.page(shown::VOLUMES)))
         .with("provenance", provenance(engines, maker))
         .and(overview);
     files.page("engines.html", values, maker)?;

@@ -1,16 +1,14 @@
-//! Both engines as tables: every pressure, a row per robot, ways up and down, ledgers, volumes. Each with its caption.
+//! Both engines as tables: every pressure, a row per robot, ways up and down, ledgers. Each with its caption.
 
 use crate::prelude::*;
 use compare::CompareError;
-use compare::study::engines::{BodyVolumes, EngineLine, EngineRobot, MeanOverSeeds, MeanVolumes, TERMS};
+use compare::study::engines::{EngineLine, EngineRobot, MeanOverSeeds, TERMS};
 use compare::study::published::heights_m;
 
 pub(crate) const LINES: &str = "All pressures that the paper prints";
 pub(crate) const SUMMARY: &str = "Outermost marker at 30 kPa; finite elements: median and 80 % interval over all unmeasured numbers; as recommended: mean ± standard deviation over seeds";
 pub(crate) const BRANCHES: &str = "Finite elements on the way up and down again, mean ± standard deviation over seeds";
 pub(crate) const LEDGERS: &str = "Ledgers at the highest pressure [mJ]: gas −P ΔV, stored, lost";
-pub(crate) const VOLUMES: &str = "Volumes [cm³], mean over seeds: what the bodies of the finite elements lose, and what the \
-    reduced model knows of it";
 
 pub(crate) fn line_table(lines: &[EngineLine]) -> TextTable<&EngineLine> {
     TextTable::of(lines)
@@ -118,17 +116,4 @@ pub(crate) fn ledgers(robots: &[EngineRobot]) -> TextTable<Vec<String>> {
         }));
     }
     TextTable::finished(&[&["robot", "engine"], &TERMS[..], &["lost"]].concat(), 2, rows)
-}
-
-/// Volumes of every robot at its own body pressure; quotients with their standard deviation over the seeds.
-pub(crate) fn volume_table(robots: &[EngineRobot]) -> TextTable<(&BodyVolumes, &MeanVolumes)> {
-    let bodies = robots.iter().flat_map(|robot| &robot.bodies).filter(|body| body.own);
-    TextTable::of(bodies.flat_map(|body| body.states.iter().map(move |state| (body, state))))
-        .words("robot", |(body, _)| &body.actuator)
-        .number("actuator kPa", 0, |(_, v)| v.actuator_kpa)
-        .number("body lost", 1, |(_, v)| v.body_lost_cm3.0)
-        .number("πR³ × turn", 1, |(_, v)| v.by_bend_cm3.0)
-        .number("actuator", 1, |(_, v)| v.actuator_cm3.0)
-        .right("displaced per actuator volume (χ)", |(_, v)| over_seeds(v.displaced, 3))
-        .right("share of the ideal lens", |(_, v)| over_seeds(v.lens_share, 3))
 }

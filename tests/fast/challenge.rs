@@ -60,7 +60,7 @@ fn a_diagnosis_is_scored() {
         r#""verdict": "effect", "ranked": [{"effect": "creep", "at_bound": true}, {"effect": "leak", "at_bound": false}],
         "indistinguishable": ["leak", "creep"], "added": [{"effect": "leak"}]"#,
     );
-    let args = ["challenge", "reveal", "c", "--diagnosis", "answer.json"];
+    let args = ["challenge", "reveal", "c", "answer.json"];
     let told = folder.run(&args).stdout;
     assert!(told.contains("The diagnosis states: effect, which is right."), "{told}");
     assert!(told.contains("place 1 of the ranking and in the stated set of 2 (leak, creep)"), "{told}");
@@ -79,7 +79,7 @@ fn a_diagnosis_of_one_run_is_not_scored_and_one_of_other_data_refused() {
     make(&folder, &["--actuator", "epam", "--runs", "1"]);
     let diagnosed = folder.run(&["diagnose", "c/scenario.toml", "c", "--json"]);
     folder.write("answer.json", &diagnosed.stdout);
-    let args = ["challenge", "reveal", "c", "--diagnosis", "answer.json"];
+    let args = ["challenge", "reveal", "c", "answer.json"];
     let told = folder.run(&args);
     assert!(told.stdout.contains("gives no verdict: it is not scored"), "{}{}", told.stdout, told.stderr);
     let json = folder.run(&[&args[..], &["--json"]].concat()).json("ibr.challenge.reveal");

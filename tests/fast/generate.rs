@@ -16,7 +16,8 @@ fn every_synthetic_set_is_made_again_byte_for_byte_from_its_truth() {
         let (seed, protocol) =
             if name == "synthetic-epam-two-bodies" { ("12", TWO_BODIES) } else { ("11", "0,10,20,30,0@2") };
         let folder = Folder::new();
-        let args = ["data", "generate", &truth, "--out", &name, "--seed", seed, "--white", "--protocol", protocol];
+        let args =
+            ["data", "generate", &truth, "--out", &name, "--seed", seed, "--scatter", "white", "--protocol", protocol];
         assert_eq!(folder.run(&args).code, 0, "{name}");
         for file in ["markers.csv", "about.toml", "truth.toml"] {
             let made = std::fs::read(folder.path(&name).join(file)).unwrap();
@@ -37,7 +38,8 @@ fn every_finite_element_set_is_made_again_byte_for_byte_from_the_stored_runs() {
             "fem",
             &format!("{robot}-textbook"),
             "--stored",
-            "--white",
+            "--scatter",
+            "white",
             "--seed",
             "21",
             "--out",
@@ -115,7 +117,7 @@ fn what_cannot_be_generated_is_refused_with_an_example() {
     refused(&["epam", "--protocol", "0,1900@2"], &["actuator pressure must be from 0 to 1000 kPa, not 1900"]);
     refused(&["epam", "--sigma", "5"], &["--sigma", "`5` has no unit"]);
     refused(&["epam", "--sigma", "-1mm"], &["--sigma", "not from 0 to 100 mm"]);
-    refused(&["epam", "--pressure-scatter", "nan"], &["not from 0 to 50 per cent"]);
-    refused(&["epam", "--pressure-scatter", "-3"], &["not from 0 to 50 per cent"]);
+    refused(&["epam", "--scatter", "pressure=nan"], &["not from 0 to 50 per cent"]);
+    refused(&["epam", "--scatter", "pressure=-3%"], &["not from 0 to 50 per cent"]);
     refused(&["epam", "--runs", "0"], &["0 is not in 1..=10000"]);
 }

@@ -113,7 +113,7 @@ fn slips_of_the_command_line_say_what_to_write() {
     for (option, value, help) in [
         ("--scale", "3.1", "3.1px/mm"),
         ("--scale", "px/mm", "3.1px/mm"),
-        ("--known-distance", "a:b", "a:b=40mm"),
+        ("--scale", "a:b", "a:b=40mm"),
         ("--axes", "x,x", "x,-y"),
         ("--clock-offset", "soon", "write find"),
         ("--hold", "1", "units s, ms, min"),

@@ -8,7 +8,7 @@ const ROBOT: &str = "epam-two-strips";
 
 fn made(protocol: &str) -> Folder {
     let folder = Folder::new();
-    let ran = folder.run(&["data", "generate", ROBOT, "--protocol", protocol, "--white", "--out", "made"]);
+    let ran = folder.run(&["data", "generate", ROBOT, "--protocol", protocol, "--scatter", "white", "--out", "made"]);
     assert_eq!(ran.code, 0, "{}", ran.stderr);
     folder
 }
@@ -69,7 +69,7 @@ fn a_robot_with_strips_is_diagnosed_and_its_table_checked() {
     folder.write("turned.csv", csv.replace("x_mm,y_mm,z_mm", "x_mm,z_mm,y_mm"));
     let told = |out: &str| out.contains("y and z look exchanged") || out.contains("channels 0 and 1 look exchanged");
     for (file, is_told) in [("made", false), ("turned.csv", true)] {
-        let checked = folder.run(&["data", "check", file, "--scenario", ROBOT]);
+        let checked = folder.run(&["data", "check", file, ROBOT]);
         assert_eq!(told(&checked.stdout), is_told, "{file}: {}", checked.stdout);
     }
     let compared = folder.run(&["compare", ROBOT, "turned.csv", "--json"]).json("ibr.compare");

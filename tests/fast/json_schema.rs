@@ -66,7 +66,7 @@ const COMMANDS: [(&str, &str); 56] = [
     ("challenge list", "ibr.challenge.list"),
     ("challenge reveal c", "ibr.challenge.reveal"),
     ("diagnose c/scenario.toml c --out d", "ibr.diagnose"),
-    ("challenge reveal c --diagnosis d/diagnosis.json", "ibr.challenge.reveal"),
+    ("challenge reveal c d/diagnosis.json", "ibr.challenge.reveal"),
     ("verify", "ibr.verify"),
     ("bench", "ibr.bench"),
 ];

@@ -101,7 +101,7 @@ fn pressures_in_psi_are_told_by_every_command_and_the_verdict_waits() {
     assert!(!ran.stdout.contains("p corrected"), "no ranking: {}", ran.stdout);
     let ran = folder.run(&["compare", "robot.toml", "made"]);
     assert!(ran.stderr.contains(words), "{}", ran.stderr);
-    let ran = folder.run(&["data", "check", "made", "--scenario", "robot.toml"]);
+    let ran = folder.run(&["data", "check", "made", "robot.toml"]);
     assert!(ran.stdout.contains(words), "{}", ran.stdout);
     let answer = folder.run(&["diagnose", "robot.toml", "made", "--json"]).json("ibr.diagnose");
     assert!(answer["verdict"].is_null() && answer["pressure_slip"]["after_mm"].as_f64().unwrap() < 0.5);

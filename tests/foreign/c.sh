@@ -9,7 +9,7 @@ cd "$work"
 if "$ibr" --quiet export c epam --pressure 0:40kPa --out my-robot.c 2> refusal; then echo "a file was replaced without --force"; exit 1; fi
 grep -q -- --force refusal
 "$ibr" --quiet --force export c epam --pressure 0:40kPa --out my-robot.c > /dev/null
-height=$("$ibr" predict epam --pressures <(printf 'p_kpa\n20\n') --json | sed -n '/"tip"/,/}/s/.*"y_mm": *\([0-9]*\.[0-9]\{1,4\}\).*/\1/p')
+height=$("$ibr" predict epam --pressure <(printf 'p_kpa\n20\n') --json | sed -n '/"tip"/,/}/s/.*"y_mm": *\([0-9]*\.[0-9]\{1,4\}\).*/\1/p')
 cat > main.c << 'END'
 #include "my-robot.h"
 #include <stdio.h>

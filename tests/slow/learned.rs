@@ -28,8 +28,17 @@ fn a_law_that_the_catalogue_lacks_is_learned_written_and_leaves_nothing_missing(
     let (folder, stiff, law) = (Folder::new(), stiff(), hidden_law());
     folder.write("mine.toml", &stiff);
     folder.write("truth.toml", format!("{stiff}\n{law}"));
-    let made =
-        folder.run(&["data", "generate", "truth.toml", "--out", "seen", "--white", "--protocol", "0,5,10,15,20,30@2"]);
+    let made = folder.run(&[
+        "data",
+        "generate",
+        "truth.toml",
+        "--out",
+        "seen",
+        "--scatter",
+        "white",
+        "--protocol",
+        "0,5,10,15,20,30@2",
+    ]);
     assert_eq!(made.code, 0, "{}", made.stderr);
     let answer = folder.run(&["add", "mine.toml", "learned", "seen", "--keep-bending", "--json"]).json("ibr.add");
     for key in ["training_mm", "heldout_pressure_mm", "heldout_run_mm"] {
@@ -57,7 +66,11 @@ fn intervals_of_a_learned_law_contain_the_true_values() {
         let (seed, data, out) = (seed.to_string(), format!("seen-{seed}"), format!("learned-{seed}.toml"));
         let protocol = ["--protocol", "0,5,10,15,20,30@2"];
         let made = folder.run(
-            &[&["data", "generate", "truth.toml", "--white", "--seed", &seed, "--out", &data], &protocol[..]].concat(),
+            &[
+                &["data", "generate", "truth.toml", "--scatter", "white", "--seed", &seed, "--out", &data],
+                &protocol[..],
+            ]
+            .concat(),
         );
         assert_eq!(made.code, 0, "{}", made.stderr);
         let add = ["add", "mine.toml", "learned", &data, "--keep-bending", "--out", &out, "--json"];

@@ -2,7 +2,6 @@
 
 #![allow(clippy::unwrap_used)]
 
-use compare::study::engines::{EngineRun, EngineState, volumes};
 use compare::study::published_ladders;
 use models::{Loads, Model, Pose, PouchShape, Scenario, shipped};
 use std::f64::consts::{LN_2, PI};
@@ -67,17 +66,6 @@ fn without_a_body_it_is_the_sealed_pouch_and_its_known_contractions() {
         let largest = (0..4000).map(|i| 0.8 + 2e-4 * f64::from(i)).max_by(|a, b| volume(*a).total_cmp(&volume(*b)));
         assert!((contraction(largest.unwrap()) - known).abs() < 6e-4, "{aspect}: {largest:?}");
     }
-}
-
-#[test]
-fn ideal_lenses_of_a_run_contract_as_much_as_the_closed_form_says() {
-    let theta = 1.1;
-    let lenses_cm3 = 6e6 * volume_m3(&Pouch { length_m: 0.06, width_m: 0.06 }, theta);
-    let turn_rad = contraction(theta) * 0.36 / 0.08;
-    let bent = EngineState { actuator_kpa: 10.0, turn_rad, actuator_cm3: lenses_cm3, ..EngineState::default() };
-    let run = EngineRun { states: vec![EngineState::default(), bent], ..EngineRun::default() };
-    let share = volumes(&epam(), &run)[0].lens_share.unwrap();
-    assert!((share - 1.0).abs() < 1e-12, "{share}");
 }
 
 #[test]

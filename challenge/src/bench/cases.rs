@@ -1,8 +1,6 @@
 //! One set of the bench: draws it, measures it and diagnoses it.
 
-use super::attainable::distances_of;
 use super::follow::{follow_up, tested};
-use super::oracle::{at_best, two_at_best};
 use super::outcome::{After, Diagnoser, Lot, Named, PlannedSet, about, names};
 use crate::score::{Claim, score};
 use crate::truth::{ROBOTS, standard_protocol};
@@ -87,24 +85,12 @@ fn diagnosed(
 
 fn hidden(truth: &Truth, kind: Hiding, diagnose: Diagnoser) -> Result<Named, CompareError> {
     let data = truth.dataset("hidden", &standard_protocol())?;
-    let found = diagnosed(truth, vec![(data.clone(), about(truth)?)], kind == Hiding::One, diagnose)?;
+    let found = diagnosed(truth, vec![(data, about(truth)?)], kind == Hiding::One, diagnose)?;
     let mut named = scored(truth, &found);
-    if matches!(kind, Hiding::One | Hiding::Outside) {
-        named.distances = Some(distances_of(truth, &data, kind == Hiding::Outside)?);
-    }
-    named.at_best = match kind {
-        Hiding::One if named.score.alarm => Some(at_best(truth, &data)?),
-        Hiding::Two => Some(two_at_best(truth, &data)?),
-        _ => None,
-    };
     let is_ambiguous = named.answer.verdict.as_deref() == Some("effect") && named.answer.set.len() > 1;
     let next = found.next_experiment.as_ref().and_then(|next| next.recommended.as_ref());
     if let Some(experiment) = next.filter(|_| kind == Hiding::One && is_ambiguous) {
-        let after = after(truth, experiment, diagnose)?;
-        if after.score.rank != Some(1) {
-            named.after_in_silence = Some(self::after(&silent(truth), experiment, diagnose)?.score);
-        }
-        named.after = Some(after);
+        named.after = Some(after(truth, experiment, diagnose)?);
     }
     Ok(named)
 }
@@ -120,7 +106,7 @@ fn after(truth: &Truth, experiment: &Experiment, diagnose: Diagnoser) -> Result<
     Ok(After { experiment: experiment.name.clone(), score: score(truth, &answer), answer })
 }
 
-/// The same robot with a hundredth of the noise and scatter: an effect missed even then is missed because of the laws.
+/// The same robot with a hundredth of the noise and scatter.
 fn silent(truth: &Truth) -> Truth {
     Truth {
         camera_sd_m: 0.01 * truth.camera_sd_m,
@@ -177,7 +163,6 @@ fn unseen_mm(truth: &Truth, found: &Diagnosis) -> Option<[f64; 2]> {
 
 fn scored(truth: &Truth, found: &Diagnosis) -> Named {
     let answer = Claim::of(found);
-    let first = found.ranked.iter().find(|row| answer.added.first() == Some(&row.effect));
     let is_true = |name: &String| truth.effects.first().is_some_and(|choice| choice.name == *name);
     let now = found.next_experiment.iter().flat_map(|next| &next.now);
     Named {
@@ -185,10 +170,6 @@ fn scored(truth: &Truth, found: &Diagnosis) -> Named {
         identified: found.confidence == Some(Confidence::IdentifiedInCatalog),
         slip: !found.slips.is_empty(),
         pressure_slip: found.pressure_slip.is_some(),
-        bending_alarm: found.bending_alarm.is_some(),
-        systematic_mm: [found.base.systematic_mm, found.base.systematic_with_added_mm],
-        tolerance_mm: found.tolerance_mm,
-        heldout_mm: found.base.heldout_run_mm.zip(first.and_then(|row| row.heldout_run_mm)).map(|(a, b)| [a, b]),
         unseen_mm: unseen_mm(truth, found),
         bending_held: found
             .base

@@ -4,13 +4,10 @@
 //! of threads. Sizes, laws and seeds are not tuned: the table shows every missed goal, with the name that was
 //! given instead and the separation λ of truth and name.
 
-mod attainable;
 mod cases;
-mod covered;
 mod faults;
 mod follow;
 mod made;
-mod oracle;
 mod outcome;
 mod row;
 mod slipped;
@@ -19,19 +16,17 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-pub use attainable::Attainable;
 pub use faults::FaultSet;
 pub use made::OneOff;
 pub use outcome::{After, Diagnoser, Lot, Named, PlannedSet, SetOutcome};
 pub use row::{Goal, Rate};
 pub use slipped::SlippedSet;
 pub use surplus::SurplusSet;
-pub use table::{Confusion, Slice};
+pub use table::Confusion;
 
 use super::effects::Laws;
 use super::score::{Claim, ClaimScore};
 use super::truth::{Hiding, Truth};
-use compare::diagnosis::Distances;
 use compare::error::CompareError;
 use serde::{Deserialize, Serialize};
 
@@ -59,8 +54,6 @@ pub struct SetSeen {
     pub score: Option<ClaimScore>,
     /// Answer and score after the recommended next experiment, of ambiguous sets.
     pub after: Option<After>,
-    /// λ to the nearest explanation of each kind, where it was asked for.
-    pub distances: Option<Distances>,
 }
 
 /// Results of the whole bench: the table, its background and every set.
@@ -74,15 +67,6 @@ pub struct Discovery {
     pub rows: Vec<Rate>,
     /// How often each hidden effect got each name, of sets with one effect.
     pub confusion: Vec<Confusion>,
-    /// Single effects by actuator, camera noise and runs.
-    pub breakdown: Vec<Slice>,
-    /// What no test could exceed with these data.
-    pub attainable: Attainable,
-    /// Sets whose truth is not on top after the recommended next experiment.
-    pub missed_after: usize,
-    /// Among these, sets whose truth is not on top with a hundredth of the noise either: another formula of the catalogue meets
-    /// the robot's law as well as its own, or better.
-    pub missed_by_law: usize,
     /// Data made by finite elements, mechanism by mechanism.
     pub made: Vec<OneOff>,
     /// Data with a column of pressures written wrongly.
@@ -203,7 +187,6 @@ impl PlannedBench {
                 (piece, Some(_)) => failed.push(format!("{piece:?}: an answer to something else")),
             }
         }
-        let silence: Vec<bool> = table::missed_in_silence(&outcomes);
         Discovery {
             seed: self.options.seed,
             laws: self.options.laws,
@@ -211,7 +194,7 @@ impl PlannedBench {
                 table::rows(&outcomes),
                 surplus::rows(&surplus),
                 faults::rows(&faults),
-                covered::rows(
+                table::covered(
                     &outcomes,
                     faults.iter().filter_map(FaultSet::holds).chain(surplus.iter().filter_map(SurplusSet::holds)),
                 ),
@@ -220,10 +203,6 @@ impl PlannedBench {
             ]
             .concat(),
             confusion: table::confusion(&outcomes),
-            breakdown: table::breakdown(&outcomes),
-            attainable: attainable::of(&outcomes),
-            missed_after: silence.len(),
-            missed_by_law: silence.iter().filter(|missed| **missed).count(),
             slipped,
             surplus,
             faults,
@@ -242,7 +221,6 @@ fn seen(outcome: &SetOutcome) -> SetSeen {
         answer: named.map(|named| named.answer.clone()),
         score: named.map(|named| named.score.clone()),
         after: named.and_then(|named| named.after.clone()),
-        distances: named.and_then(|named| named.distances),
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::loads::in_plane;
 use crate::score::{Claim, ClaimScore};
 use crate::truth::{Hiding, Truth};
-use compare::diagnosis::{Diagnosis, Distances, Options};
+use compare::diagnosis::{Diagnosis, Options};
 use compare::error::CompareError;
 use compare::{Evidence, Progress};
 use data::{About, Direct, Provenance};
@@ -67,14 +67,6 @@ pub struct Named {
     pub slip: bool,
     /// A column of pressures was, and the verdict withheld.
     pub pressure_slip: bool,
-    /// The diagnosis reported a stiffness that differs from the scenario or from a bending test.
-    pub bending_alarm: bool,
-    /// Error beyond noise of the calibrated base and of the final model \[mm\].
-    pub systematic_mm: [f64; 2],
-    /// Error that is good enough \[mm\].
-    pub tolerance_mm: f64,
-    /// The same on runs left out, where the diagnosis gives both.
-    pub heldout_mm: Option<[f64; 2]>,
     /// Rms error of the calibrated base and of the final model under a protocol without measurements \[mm\], of verdicts that name.
     pub unseen_mm: Option<[f64; 2]>,
     /// The base's 95 % interval of B holds the true one.
@@ -89,13 +81,6 @@ pub struct Named {
     pub smallest_detectable: Option<f64>,
     /// Score after the recommended next experiment, of ambiguous sets.
     pub after: Option<After>,
-    /// How far the truth is from what the catalogue can say, of one hidden effect and of one outside the catalogue.
-    pub distances: Option<Distances>,
-    /// Shares of all noise in which the truth could be named first, and among three, of one hidden effect that gave alarm; of two,
-    /// in which the nearest pair of laws holds one of them, and both.
-    pub at_best: Option<[f64; 2]>,
-    /// The same experiment with next to no noise, where the truth did not come out on top.
-    pub after_in_silence: Option<ClaimScore>,
 }
 
 /// The answer after the recommended experiment was measured too.

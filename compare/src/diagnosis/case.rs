@@ -23,9 +23,6 @@ use nalgebra::{DMatrix, SymmetricEigen};
 const ENOUGH: f64 = 1e-4;
 const EIGEN_ROUNDS: usize = 1000;
 
-/// Noise of a source, given its ∂f/∂ln p.
-type NoiseOf<'n> = dyn Fn(&DiagnosisSource, &[f64]) -> Result<NoiseModel, CompareError> + 'n;
-
 pub(crate) struct DiagnosisCase<'a> {
     /// All data; errors in millimetres, places and held-out parts refer to the first.
     pub sources: &'a [DiagnosisSource],
@@ -85,19 +82,6 @@ impl<'a> DiagnosisCase<'a> {
                 policy::FEWEST_RUNS
             )));
         }
-        let estimate = |source: &DiagnosisSource, slope: &[f64]| {
-            let noise = NoiseModel::estimate(&source.dataset, slope, &source.sessions, options.sigma_m)?;
-            source.at_readings(noise, slope)
-        };
-        DiagnosisCase::with_noise(sources, &estimate, (candidates, own), options)
-    }
-
-    pub(crate) fn with_noise(
-        sources: &'a [DiagnosisSource],
-        noise: &NoiseOf,
-        (candidates, own): (&'a [Candidate], usize),
-        options: &Options,
-    ) -> Result<DiagnosisCase<'a>, CompareError> {
         let first = &sources[0];
         let known_bending = sources.iter().find_map(|source| source.bending_nm2);
         let mut known = known(sources.iter().flat_map(|source| &source.measured), candidates, first.as_given())?;
@@ -115,7 +99,8 @@ impl<'a> DiagnosisCase<'a> {
          -> Result<(Vec<NoiseModel>, FitProblem<'a>, Fit), CompareError> {
             let (mut noises, mut blocks) = (Vec::new(), Vec::new());
             for (source, slope) in sources.iter().zip(slopes) {
-                let noise = noise(source, slope)?;
+                let estimated = NoiseModel::estimate(&source.dataset, slope, &source.sessions, options.sigma_m)?;
+                let noise = source.at_readings(estimated, slope)?;
                 blocks.push(Block::of(source, &noise, levels)?);
                 noises.push(noise);
             }

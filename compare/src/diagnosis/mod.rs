@@ -16,7 +16,6 @@
 
 mod bench;
 mod case;
-mod distance;
 mod hypotheses;
 mod moments;
 mod next;
@@ -34,7 +33,6 @@ pub(crate) use answers::in_step;
 pub use answers::{EffectAnswer, Standing, with_fitted};
 pub use bench::{BenchDiagnosis, BenchOptions, BenchRanked, LeftOut, diagnose_bench};
 pub use candidates::taken_away;
-pub use distance::{Distances, KnownNoise, distances, power};
 pub use experiments::{BENDING_TEST, BENDING_TEST_NAME};
 pub use known::{BENCH_TEST, BENCH_TESTS, BenchTest};
 pub use options::{Options, PRESSURES_ARE_RIGHT};

@@ -4,8 +4,6 @@
 pub const MEETS: f64 = 0.1;
 /// Share of the last turn from which a robot is bent.
 pub const BENT: f64 = 0.1;
-/// Share of the last volume from which an actuator is filled.
-pub const FILLED: f64 = 0.05;
 /// Readings of a run this near are of one pressure, or of one size \[kPa, mm\].
 pub const SAME_READING: f64 = 0.05;
 /// Pressures of a run and of a hold within this fraction are the same.
@@ -23,11 +21,6 @@ pub fn meets(off: f64) -> bool {
 /// Whether a robot is bent, of its turn and the last one.
 pub fn is_bent(turn_rad: f64, last_rad: f64) -> bool {
     turn_rad > BENT * last_rad
-}
-
-/// Whether an actuator is filled, of its volume and the last one.
-pub fn is_filled(volume_cm3: f64, last_cm3: f64) -> bool {
-    volume_cm3 > FILLED * last_cm3
 }
 
 /// Whether two readings of a run are of one pressure or size \[kPa, mm\].
@@ -56,8 +49,6 @@ pub const NONE: f64 = 0.02;
 pub const LITTLE: f64 = 0.05;
 /// "Almost" a number of points: from so many below it.
 pub const ALMOST: f64 = 5.0;
-/// What a number with one decimal may be off by.
-pub const ROUNDED: f64 = 0.051;
 
 /// Whether a share counts as no difference in the words of a publication.
 pub fn is_none(share: f64) -> bool {
@@ -72,11 +63,6 @@ pub fn is_little(share: f64) -> bool {
 /// Whether points are almost those printed.
 pub fn is_almost(points: f64, printed: f64) -> bool {
     (printed - ALMOST..=printed).contains(&points)
-}
-
-/// Whether a value is the number that was printed with one decimal.
-pub fn is_rounded(value: f64, printed: f64) -> bool {
-    (value - printed).abs() < ROUNDED
 }
 
 /// A specimen that is off the mean of the others by more than this share deviates.

@@ -141,13 +141,10 @@ impl NoiseModel {
         }
     }
 
-    /// The noise of a mean over `runs` runs if nothing of it had to be estimated: σ \[m\] and the run-to-run standard
-    /// deviations of pressure, x, y and rotation; along and about other axes they are the same. It gives no p-values; it
-    /// measures how far apart two explanations are.
-    ///
-    /// # Errors
-    /// As [`NoiseModel::estimate`].
-    pub fn known(
+    /// The noise of a mean over `runs` runs of which nothing is estimated: σ \[m\], and the run-to-run standard deviations of
+    /// pressure, x, y and rotation.
+    #[cfg(test)]
+    pub(crate) fn known(
         dataset: &Dataset,
         dprediction_dlnp: &[f64],
         runs: usize,

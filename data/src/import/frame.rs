@@ -99,7 +99,7 @@ impl CameraRuns<'_> {
         let (map, words) = match scale {
             Scale::OfFile | Scale::Unit(_) if of_file == Lengths::Pixels => {
                 let message = "positions are pixels of the picture, and their scale is not known";
-                let help = "give --scale 3.1px/mm, or --known-distance MARKER:MARKER=40mm, or --board corners.csv --square 25mm";
+                let help = "give --scale 3.1px/mm, or --scale MARKER:MARKER=40mm, or --board corners.csv=25mm";
                 return Err(self.fault(message, help));
             }
             Scale::OfFile => {
@@ -156,7 +156,7 @@ impl CameraRuns<'_> {
             return Ok(apart);
         }
         let help = "name two different ones";
-        Err(self.fault("the two places of --known-distance are one", help))
+        Err(self.fault("the two places of --scale are one", help))
     }
 
     fn where_is(&self, run: usize, place: &FilePlace) -> Result<FoundMarker> {

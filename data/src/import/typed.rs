@@ -52,12 +52,15 @@ pub fn axes(text: &str) -> Result<[FileAxis; 2], String> {
     if both[0].index == both[1].index { Err(wrong()) } else { Ok(both) }
 }
 
-/// `3.1px/mm`, `0.32mm/px`, or the unit of the file's numbers.
+/// `3.1px/mm`, `0.32mm/px`, the unit of the file's numbers, or a known distance: `a:b=40mm`, `10,20:300,25=90mm`.
 impl FromStr for Scale {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Scale, String> {
         let text = text.trim();
+        if text.contains(':') {
+            return known_distance(text);
+        }
         let metres = |word: &str| {
             let digit = word.rfind(|c: char| c.is_ascii_digit() || c == '.');
             let (number, unit) = word.split_at(digit.map_or(0, |last| last + 1));
@@ -77,7 +80,8 @@ impl FromStr for Scale {
             Some((left, "px")) => metres(left).map(|metres| Scale::PixelsPerMetre(1.0 / metres)),
             Some((left, right)) => per_metre(left, right).map(Scale::PixelsPerMetre),
         };
-        let example = "write 3.1px/mm, 0.32mm/px, or the unit of the file's numbers: mm, cm, m";
+        let example =
+            "write 3.1px/mm, 0.32mm/px, the unit of the file's numbers (mm, cm, m), or a known distance (a:b=40mm)";
         match found {
             Some(scale) if is_whole(&scale) => Ok(scale),
             Some(_) => Err(format!("`{text}` rounds to 0: {example}")),
@@ -90,11 +94,8 @@ fn not_understood(text: &str, example: &str) -> String {
     format!("`{text}` is not understood: {example}")
 }
 
-/// Two markers or places and how far they are apart: `a:b=40mm`, `10,20:300,25=90mm`.
-///
-/// # Errors
-/// Not two places and a length above zero.
-pub fn known_distance(text: &str) -> Result<Scale, String> {
+/// Two markers or places and how far they are apart.
+fn known_distance(text: &str) -> Result<Scale, String> {
     let example = "write two markers or places and their distance: a:b=40mm or 10,20:300,25=90mm";
     let wrong = || not_understood(text, example);
     let (places, length) = text.rsplit_once('=').ok_or_else(wrong)?;
@@ -179,9 +180,9 @@ mod tests {
         ] {
             assert!(wrong.parse::<Scale>().is_err_and(|message| message.contains("3.1px/mm")), "{wrong}");
         }
-        let known = known_distance("10,20:tip=90mm");
+        let known = "10,20:tip=90mm".parse();
         assert_eq!(known, Ok(Scale::Known([FilePlace::At(vec![10.0, 20.0]), FilePlace::Marker("tip".into())], 0.09)));
-        assert!(["a:b", "a=4mm", "a:b=0mm", "a:b=4"].iter().all(|wrong| known_distance(wrong).is_err()));
+        assert!(["a:b", "a=4mm", "a:b=0mm", "a:b=4"].iter().all(|wrong| wrong.parse::<Scale>().is_err()));
     }
 
     #[test]

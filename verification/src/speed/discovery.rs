@@ -1,7 +1,7 @@
 //! How often a diagnosis is right, on data whose hidden effects follow other laws.
 
 use crate::{Error, Findings, Printed};
-use challenge::bench::{Attainable, Confusion, Discovery, DiscoveryOptions, Goal, PieceAnswer, PlannedBench, Rate};
+use challenge::bench::{Confusion, Discovery, DiscoveryOptions, Goal, PieceAnswer, PlannedBench, Rate};
 use challenge::truth::{ROBOTS, standard_protocol};
 use challenge::{Draw, Truth};
 use compare::Evidence;
@@ -9,7 +9,6 @@ use compare::diagnosis::{Options, diagnose};
 use fem::cost::thread_seconds;
 use fem::session::{Progress, Shard, sha256};
 use serde_json::json;
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use sweep::pieces;
 
@@ -96,8 +95,7 @@ impl DiscoveryWork {
         );
         let json = json!({
             "schema": "ibr.bench.discovery", "version": 1, "seed": seed, "sets": sets, "laws": laws, "rows": bench.rows, "slipped": bench.slipped, "surplus": bench.surplus, "faults": bench.faults,
-            "confusion": bench.confusion, "breakdown": bench.breakdown, "attainable": bench.attainable,
-            "missed_after": bench.missed_after, "missed_by_law": bench.missed_by_law,
+            "confusion": bench.confusion,
             "made": bench.made, "seen": bench.seen, "failed": bench.failed, "time": {"machine": machine, "row": time},
         });
         let missed = bench.rows.iter().chain([&time]).any(|row| row.met == Some(false)) || !bench.failed.is_empty();
@@ -123,18 +121,12 @@ fn seconds(seed: u64) -> Result<f64, Error> {
 }
 
 fn parts(bench: &Discovery, time: &Rate) -> Vec<Printed> {
-    let percent = |v: f64| format!("{:.0} %", 100.0 * v);
     let head = &["sets of", "figure", "target", "measured", "95 % interval", "sets", "met"];
-    let by_part = bench
-        .breakdown
-        .iter()
-        .map(|b| vec![b.of.clone(), b.sets.to_string(), percent(b.alarm), percent(b.on_top), percent(b.in_set)]);
     let named = bench.confusion.iter().map(|c| {
         let [lambda, behind, least] = [c.lambda, c.bic_behind, c.smallest_detectable].map(number);
         vec![c.truth.clone(), c.named.clone(), c.count.to_string(), lambda, behind, least]
     });
     let named_head = &["hidden", "named", "sets", "λ", "truth behind by BIC", "smallest detectable [typical sizes]"];
-    let after = after(bench).into_iter().map(|(name, [sets, hits])| vec![name, sets.to_string(), hits.to_string()]);
     let made = bench.made.iter().map(|m| {
         let listed = |names: &[String]| if names.is_empty() { "–".into() } else { names.join(", ") };
         let [before, whole, after] = m.systematic_mm.map(|mm| number(Some(mm)));
@@ -174,17 +166,10 @@ fn parts(bench: &Discovery, time: &Rate) -> Vec<Printed> {
         "stated",
         "closest",
     ];
-    let missed = format!(
-        "Of {} sets missed after the next experiment {} are missed with a hundredth of the noise too: \
-         another formula of the catalogue meets the robot's law as well as its own, or better.\n",
-        bench.missed_after, bench.missed_by_law
-    );
     let laws = if bench.laws.are_first() { "" } else { " by the second laws" };
     vec![
         Printed::Text(format!("Diagnosis of data with hidden effects{laws}, seed {}\n", bench.seed)),
         Printed::table(head, 2, bench.rows.iter().chain([time]).map(cells)),
-        Printed::Text("\nOne hidden effect, by part of the sets\n".into()),
-        Printed::table(&["of", "sets", "alarm", "truth on top", "truth in set"], 1, by_part),
         Printed::Text("\nOne hidden effect: what was named\n".into()),
         Printed::table(named_head, 2, named),
         Printed::Text(
@@ -192,9 +177,7 @@ fn parts(bench: &Discovery, time: &Rate) -> Vec<Printed> {
              the catalogue's formula.\n"
                 .into(),
         ),
-        Printed::Text(limits(bench) + &attainable(&bench.attainable) + &missed),
-        Printed::Text("\nAmbiguous, after the next experiment: by what was hidden\n".into()),
-        Printed::table(&["hidden", "sets", "truth on top"], 1, after),
+        Printed::Text(limits(bench)),
         Printed::Text(
             "\nMade by finite elements, the shipped model without one mechanism: its effect there, and the names given\n"
                 .into(),
@@ -207,18 +190,6 @@ fn parts(bench: &Discovery, time: &Rate) -> Vec<Printed> {
 /// A number with one decimal, or a dash for `None`.
 fn number(value: Option<f64>) -> String {
     value.map_or_else(|| "–".into(), |v| format!("{v:.1}"))
-}
-
-/// Of every hidden effect the ambiguous sets after the next experiment: all, and with the truth on top.
-fn after(bench: &Discovery) -> BTreeMap<String, [usize; 2]> {
-    let mut counts = BTreeMap::new();
-    for (seen, after) in bench.seen.iter().filter_map(|seen| Some((seen, seen.after.as_ref()?))) {
-        let name = seen.truth.effects.first().map_or_else(String::new, |choice| choice.name.clone());
-        let count: &mut [usize; 2] = counts.entry(name).or_default();
-        count[0] += 1;
-        count[1] += usize::from(after.score.rank == Some(1));
-    }
-    counts
 }
 
 /// How many misses of single effects no method could avoid with these data, cell by cell of the table above.
@@ -235,30 +206,6 @@ fn limits(bench: &Discovery) -> String {
          sizes); of {} called by another name {alike} are the same curve here (λ below {ENOUGH}).\n",
         count(&unseen),
         count(&other)
-    )
-}
-
-/// What no test could exceed, and why sets outside the catalogue were not flagged.
-fn attainable(limits: &Attainable) -> String {
-    let percent = |v: Option<f64>| v.map_or("–".into(), |v| format!("{:.1} %", 100.0 * v));
-    let [alarm, any, one, two] = [limits.alarm_known, limits.alarm_any, limits.flag_one, limits.flag_two].map(percent);
-    let [top, three] = [limits.on_top, limits.first_three].map(percent);
-    let [one_of_two, both] = [limits.one_of_two, limits.both].map(percent);
-    let [median, most] = limits.form.map_or(["–".into(), "–".into()], |f| f.map(|v| percent(Some(v))));
-    format!(
-        "\nWhat no test could exceed, even if it knew the noise and the truth's shape (mean power of the best test)\n\
-         One hidden effect, alarm, 3 % false alarms: {alarm} if it knows the effect, {any} if it looks for one of ten.\n\
-         One hidden effect, name, given alarm, with every law as it is in these robots: {top} on top, {three} in the first \
-         three.\n\
-         Two hidden effects, names, with every law as it is and the number of effects known: one at least right in {one_of_two}, \
-         both in {both}.\n\
-         Outside the catalogue, 5 % false flags, laws taken as the catalogue's formulas: {one} if one effect counts as an \
-         explanation, {two} if two do.\n\
-         Laws are not the formulas: of the misfit that an effect of the catalogue makes here, the nearest formula leaves \
-         {median} of the amplitude in the median and {most} in one of ten sets, and that must not be flagged.\n\
-         Of {} sets outside the catalogue that were not flagged, one or two effects come nearer than can be seen in {} (λ below \
-         13) and as near as an effect's own formula in {} more.\n",
-        limits.missed, limits.missed_unseen, limits.missed_alike
     )
 }
 

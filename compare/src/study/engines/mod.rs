@@ -15,7 +15,6 @@ mod carrier;
 mod lines;
 mod of_run;
 mod robots;
-mod volumes;
 
 use crate::characterize::Scatter;
 use crate::error::CompareError;
@@ -29,7 +28,6 @@ pub use of_run::{all_runs, as_run, known_runs, of_the_program, runs_of, seed_job
 pub(in crate::study) use of_run::{and_back, is_paper};
 pub use robots::{EngineRobot, Engines, PartingMap, engines, varied};
 use serde::{Deserialize, Serialize};
-pub use volumes::{BodyVolumes, MeanVolumes, Volumes, body_volumes, volumes};
 
 /// Terms of the ledger that both engines have, in this order.
 pub const TERMS: [&str; 7] =

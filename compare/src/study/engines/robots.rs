@@ -1,6 +1,6 @@
 //! Robots with both engines: their published numbers, their finite element runs, and where the models differ.
 
-use super::{BodyVolumes, EnginePair, EngineRun, Ensemble, as_it_is, body_volumes, ensemble, pairs};
+use super::{EnginePair, EngineRun, Ensemble, as_it_is, ensemble, pairs};
 use crate::error::CompareError;
 use crate::study::published::{Rung, model_ladder, shipped_scenario};
 use crate::study::uncertain::{self, Uncertain};
@@ -22,8 +22,6 @@ pub struct EngineRobot {
     pub uncertain: Vec<Uncertain>,
     /// Both engines at this run's pressures.
     pub pairs: Vec<EnginePair>,
-    /// What its finite element bodies lose, at every body pressure that was run.
-    pub bodies: Vec<BodyVolumes>,
 }
 
 /// Where the models part, for one robot and one quantity.
@@ -76,7 +74,6 @@ fn robot(scenario: &Scenario, runs: &[EngineRun]) -> Result<EngineRobot, Compare
         with_effects,
         uncertain: uncertain.into_iter().filter(|u| u.scenario == scenario.name).collect(),
         pairs: ensemble.runs.first().map_or(Ok(Vec::new()), |run| pairs(scenario, run, runs))?,
-        bodies: body_volumes(scenario, runs),
         scenario: scenario.clone(),
         ensemble,
     })

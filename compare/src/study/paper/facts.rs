@@ -1,4 +1,4 @@
-//! Every sentence of the paper that can be checked, next to the result of the engine or of the paper itself.
+//! A sentence of the paper and its verdict, and what it may be compared with.
 
 use super::{MESHES_MM, PaperRun, find};
 use data::Published;
@@ -8,13 +8,11 @@ use serde::Serialize;
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "is", content = "why", rename_all = "snake_case")]
 pub enum FactVerdict {
-    /// The engine or the paper's own numbers say the same.
+    /// The engine agrees.
     Holds,
-    /// The engine or the paper's own numbers say something else.
+    /// The engine gives something else.
     Misses(String),
-    /// The paper contradicts it elsewhere.
-    ContradictsItself(String),
-    /// Neither runs nor printed numbers decide it.
+    /// No run decides it.
     CannotBeChecked(String),
 }
 
@@ -24,7 +22,6 @@ impl FactVerdict {
         match self {
             FactVerdict::Holds => "holds".into(),
             FactVerdict::Misses(by) => format!("misses: {by}"),
-            FactVerdict::ContradictsItself(how) => format!("contradicts itself: {how}"),
             FactVerdict::CannotBeChecked(why) => format!("cannot be checked: {why}"),
         }
     }
@@ -39,31 +36,20 @@ pub struct FactRow {
     pub place: String,
     /// The sentence as the paper prints it, shortened.
     pub says: String,
-    /// The result of the engine, or of the paper elsewhere.
+    /// The result of the engine.
     pub found: String,
     /// Whether the finding supports the sentence.
     pub verdict: FactVerdict,
 }
 
-/// What a check found, in words, and what follows; `None` without the numbers or runs that it needs.
-pub(super) type FactFound = Option<(String, FactVerdict)>;
+/// What a check found, in words, and what it is instead where the sentence does not hold; `None` without the runs that it needs.
+pub(super) type FactFound = Option<(String, Option<String>)>;
 
-pub(super) type FactCheck = (&'static str, fn(&FactCase) -> FactFound);
+/// Name of a fact, the runs that it needs, and its check.
+pub(super) type FactCheck = (&'static str, &'static str, fn(&FactCase) -> FactFound);
 
 pub(super) fn holds_if(holds: bool, found: String, else_by: impl Into<String>) -> FactFound {
-    Some((found, if holds { FactVerdict::Holds } else { FactVerdict::Misses(else_by.into()) }))
-}
-
-pub(super) fn contradicts_itself(found: impl Into<String>, how: impl Into<String>) -> FactFound {
-    Some((found.into(), FactVerdict::ContradictsItself(how.into())))
-}
-
-pub(super) fn cannot_be_checked(found: impl Into<String>, why: &str) -> FactFound {
-    Some((found.into(), FactVerdict::CannotBeChecked(why.into())))
-}
-
-pub(super) fn joined(words: impl Iterator<Item = String>) -> String {
-    words.collect::<Vec<_>>().join(", ")
+    Some((found, (!holds).then(|| else_by.into())))
 }
 
 /// A fact with everything that it may be compared with.
@@ -77,11 +63,6 @@ impl<'a> FactCase<'a> {
     /// A number of the fact; NaN if the file has fewer, which a test refuses.
     pub(super) fn number(&self, k: usize) -> f64 {
         self.numbers.get(k).copied().unwrap_or(f64::NAN)
-    }
-
-    /// Largest displacement that the paper reports for this actuator \[mm\].
-    pub(super) fn d_max_mm(&self, kind: &str) -> Option<f64> {
-        Some(self.paper.actuator(kind)?.d_max_m * 1e3)
     }
 
     /// Runs of the robots at the pressures on the finest mesh that has all of them.

@@ -1,21 +1,19 @@
 //! The finite elements of du Pasquier et al. 2023 against this engine with their modelling choices, `[fem] model = "paper"`:
-//! displacements next to those that the paper's accuracies imply, and every sentence of the paper that can be checked.
+//! displacements next to those that the paper's accuracies imply, and the sentences of the paper that runs or patterns can check.
 
-mod checked;
+mod checks;
 mod facts;
 mod implied;
-mod in_print;
-mod in_runs;
-mod jobs;
+mod runs;
 
 use crate::policy;
 use crate::study::engines::{EngineRun, EngineState, Listed};
-pub use checked::facts;
+pub use checks::facts;
 pub use facts::{FactRow, FactVerdict};
 use fem::FemError;
 use fem::record::RecordShape;
 pub use implied::{HeightRow, Implied, against, heights};
-pub use jobs::{jobs, runs_below};
+pub use runs::runs_below;
 use serde::{Deserialize, Serialize};
 
 /// Meshes of the paper: the coarsest of its study on body and actuator, and the final one \[mm\].
@@ -63,7 +61,7 @@ pub struct Peak {
 
 const RUNS: RecordShape = RecordShape { schema: "ibr.paper_runs", version: 2 };
 
-/// Runs of the preset that come with the program, made by `ibr compare --paper --runs FOLDER`.
+/// Runs of the preset that come with the program, as `ibr compare --paper --runs FOLDER` writes them.
 ///
 /// # Errors
 /// The errors of [`read_runs`], for a program whose runs were not made again with its records.

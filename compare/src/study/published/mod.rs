@@ -44,8 +44,6 @@ pub struct PublishedLadder {
     pub published: PublishedActuator,
     /// Models in order, the bare one first.
     pub rungs: Vec<Rung>,
-    /// B that makes the last uncalibrated rung meet the displacement \[N·m²\]; `None` if no B ≥ 0 does.
-    pub calibrated_bending: Option<f64>,
 }
 
 /// Ladders of all published actuators.
@@ -98,8 +96,8 @@ fn ladder(paper: &Published, actuator: &PublishedActuator) -> Result<PublishedLa
         let label = format!("+ {}", addition.effect);
         rungs.push(Rung { label, scenario: next, y_m, range_m, known: addition.known, why: addition.why.into() });
     }
-    let calibrated_bending = calibrate(&mut rungs, &loads, actuator.d_max_m)?;
-    Ok(PublishedLadder { published: actuator.clone(), rungs, calibrated_bending })
+    calibrate(&mut rungs, &loads, actuator.d_max_m)?;
+    Ok(PublishedLadder { published: actuator.clone(), rungs })
 }
 
 /// The scenario that comes with the library for an actuator kind.
@@ -138,10 +136,10 @@ pub(crate) fn height(scenario: &Scenario, loads: &Loads) -> Result<f64, CompareE
 }
 
 /// Adds the rung with the B ≥ 0 that meets the displacement: one number fitted to one number, shown as such.
-fn calibrate(rungs: &mut Vec<Rung>, loads: &Loads, wanted_m: f64) -> Result<Option<f64>, CompareError> {
+fn calibrate(rungs: &mut Vec<Rung>, loads: &Loads, wanted_m: f64) -> Result<(), CompareError> {
     let last = rungs[rungs.len() - 1].clone();
     if last.y_m <= wanted_m {
-        return Ok(None);
+        return Ok(());
     }
     let (mut low, mut high) = (0.0, 1.0);
     while height(&last.scenario.with_bending(high), loads)? > wanted_m && high < 1e3 {
@@ -156,5 +154,5 @@ fn calibrate(rungs: &mut Vec<Rung>, loads: &Loads, wanted_m: f64) -> Result<Opti
     let label = format!("+ bending B = {high:.2} N m²");
     let why = "fitted to the measured displacement itself, so it meets it: proves nothing".to_string();
     rungs.push(Rung { label, scenario, y_m, range_m: None, known: Known::Calibrated, why });
-    Ok(Some(high))
+    Ok(())
 }
