@@ -149,9 +149,8 @@ pub(crate) struct BenchArgs {
     /// With discovery: sets without and with one hidden effect; the default takes seconds, 200 are the full bench
     #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u64).range(1..=100_000))]
     pub sets: u64,
-    /// With discovery: seed of everything
-    #[arg(long, default_value_t = 1)]
-    pub seed: u64,
+    #[command(flatten)]
+    pub random: SeedArgs,
     /// With discovery: the library of laws by which the hidden effects act; the second was written without the diagnosis in view
     #[arg(long, value_name = "WHICH", value_parser = ["first", "second"], default_value = "first")]
     pub laws: String,
@@ -163,15 +162,29 @@ pub(crate) struct BenchArgs {
 }
 
 #[derive(Debug, Args)]
+pub(crate) struct SetArgs {
+    /// Another value of a key of the robot's scenario, in `simulate` of its [fem] too: body.radius_mm=45, strip.1.azimuth_deg=120,
+    /// bond=0.5; repeatable
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SeedArgs {
+    /// Seed of everything random
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+}
+
+#[derive(Debug, Args)]
 pub(crate) struct RobotArgs {
     /// Scenario file or shipped robot
     pub scenario: String,
     /// Body pressure with unit, for example 2kPa; default: the scenario's
     #[arg(long, short, allow_hyphen_values = true)]
     pub body_pressure: Option<String>,
-    /// Another value of a key of the scenario, for example body.radius_mm=45 or strip.1.azimuth_deg=120; repeatable
-    #[arg(long, value_name = "KEY=VALUE")]
-    pub set: Vec<String>,
+    #[command(flatten)]
+    pub changes: SetArgs,
     /// Without the scenario's own effects; --effect adds to that
     #[arg(long)]
     pub bare: bool,
@@ -359,9 +372,8 @@ pub(crate) struct SimulateArgs {
     /// Robots: element size, or body and actuator, for example 8mm/3mm; several (8mm/4mm,8mm/3mm) are several runs
     #[arg(long, value_name = "[BODY/]ACTUATOR", allow_hyphen_values = true)]
     pub mesh: Option<String>,
-    /// Robots: another value of a key of [fem] or of the scenario, for example bond=0.5 or body.radius_mm=45; repeatable
-    #[arg(long, value_name = "KEY=VALUE")]
-    pub set: Vec<String>,
+    #[command(flatten)]
+    pub changes: SetArgs,
     #[command(flatten)]
     pub shards: ShardArgs,
     /// Robots: so many robots (30) whose assumed numbers fill their intervals as a Latin hypercube: median and 80 % interval of every

@@ -1,6 +1,6 @@
 //! Measurements: fabric tests and marker data.
 
-use super::RunsArgs;
+use super::{RunsArgs, SeedArgs};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
@@ -91,9 +91,8 @@ pub(crate) struct ScatterArgs {
     /// hold to hold; lasting=0.5mm of a marker through a hold, as of a tracker; white: nothing from hold to hold, nothing that lasts
     #[arg(long, value_delimiter = ',', value_name = "KEY=VALUE")]
     pub scatter: Vec<String>,
-    /// Seed of the scatter
-    #[arg(long, default_value_t = 1)]
-    pub seed: u64,
+    #[command(flatten)]
+    pub random: SeedArgs,
 }
 
 #[derive(Debug, Args)]

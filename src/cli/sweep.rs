@@ -9,10 +9,15 @@ pub(crate) struct ShardArgs {
     /// Compute only every N-th part, from the K-th on; shards may run anywhere that sees the folder
     #[arg(long, value_name = "K/N", conflicts_with_all = ["engine", "script"])]
     pub shard: Option<String>,
-    /// Let slurm or hq run the shards: submit them, watch, collect. With options of sbatch or hq submit:
-    /// "slurm --time=2:00:00 --mem-per-cpu=2G", "hq --time-limit 2h --resource mem=sum(2G)"
-    #[arg(long, value_name = "SCHEDULER", value_parser = scheduler)]
-    pub engine: Option<(Cluster, String)>,
+    /// Let a scheduler run the shards: submit them, watch, collect
+    #[arg(long, value_name = "SCHEDULER", value_parser = ["slurm", "hq"])]
+    pub engine: Option<String>,
+    /// Options of sbatch, for example "--time=2:00:00 --mem-per-cpu=2G --partition=long"; implies --engine slurm
+    #[arg(long, value_name = "OPTIONS", value_parser = one_line, allow_hyphen_values = true, conflicts_with_all = ["hq", "shard"])]
+    pub slurm: Option<String>,
+    /// Options of hq submit, for example "--time-limit 2h --resource mem=sum(2G)"; implies --engine hq
+    #[arg(long, value_name = "OPTIONS", value_parser = one_line, allow_hyphen_values = true, conflicts_with_all = ["slurm", "shard"])]
+    pub hq: Option<String>,
     /// With a scheduler: shards of the job
     #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u64).range(1..=10_000))]
     pub shards: u64,
@@ -21,20 +26,28 @@ pub(crate) struct ShardArgs {
     pub script: bool,
 }
 
-/// A scheduler and its own options, which stand in one line of a job's script.
-fn scheduler(text: &str) -> Result<(Cluster, String), String> {
-    let (name, options) = text.split_once(' ').unwrap_or((text, ""));
-    match name {
-        _ if text.contains(['\n', '\r']) => Err("write all options in one line".into()),
-        "slurm" => Ok((Cluster::Slurm, options.trim().to_string())),
-        "hq" => Ok((Cluster::HyperQueue, options.trim().to_string())),
-        _ => Err("write slurm or hq, and options of it behind a space".into()),
+/// Options that stand in one line of a job's script.
+fn one_line(text: &str) -> Result<String, String> {
+    match text.contains(['\n', '\r']) {
+        true => Err("write all options in one line".into()),
+        false => Ok(text.trim().to_string()),
     }
 }
 
 impl ShardArgs {
     pub(crate) fn asked(&self) -> bool {
-        self.shard.is_some() || self.engine.is_some()
+        self.shard.is_some() || self.cluster().is_some()
+    }
+
+    /// The scheduler that was asked for, and its own options.
+    pub(crate) fn cluster(&self) -> Option<(Cluster, &str)> {
+        let named = match self.engine.as_deref() {
+            Some("slurm") => Some((Cluster::Slurm, "")),
+            Some(_) => Some((Cluster::HyperQueue, "")),
+            None => None,
+        };
+        let slurm = self.slurm.as_deref().map(|options| (Cluster::Slurm, options));
+        slurm.or(self.hq.as_deref().map(|options| (Cluster::HyperQueue, options))).or(named)
     }
 }
 
@@ -55,7 +68,7 @@ pub(crate) struct SweepArgs {
     #[arg(long)]
     pub keep_runs: bool,
     /// Compute nothing: write the table of the parts that are there, also while others run
-    #[arg(long, conflicts_with_all = ["shard", "engine", "script"])]
+    #[arg(long, conflicts_with_all = ["shard", "engine", "slurm", "hq", "script"])]
     pub so_far: bool,
 }
 

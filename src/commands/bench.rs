@@ -26,7 +26,7 @@ pub(super) fn run(args: &BenchArgs, context: &mut Context) -> Result<Outcome> {
 
 fn discovery(args: &BenchArgs, context: &mut Context) -> Result<Outcome> {
     let laws = if args.laws == "second" { Laws::Second } else { Laws::First };
-    let options = DiscoveryOptions { seed: args.seed, sets: args.sets as usize, laws };
+    let options = DiscoveryOptions { seed: args.random.seed, sets: args.sets as usize, laws };
     let message = "shards need a folder that all of them see";
     let help = "add --out FOLDER";
     refuse_if(args.out.is_none() && args.shards.asked(), message, help)?;

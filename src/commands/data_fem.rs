@@ -37,7 +37,7 @@ pub(super) fn run(args: &DataFemArgs, context: &mut Context) -> Result<Outcome> 
         format!("Finite element markers of {}, {} runs with imperfections of their own", first.scenario, runs.len());
     about.source = format!(
         "synthetic: finite elements, engine {}, {} mm elements, numbers {}; ibr data fem, seed {}",
-        first.engine, first.mesh_mm[1], first.known, args.scatter.seed
+        first.engine, first.mesh_mm[1], first.known, args.scatter.random.seed
     );
     write_dataset(&args.out, &dataset, &about, robot.text, &inputs::named(&truth, [])?, context)?;
     let text = format!(

@@ -61,7 +61,7 @@ pub(super) fn robot(args: &RobotArgs, is_planar: bool) -> Result<(ScenarioFile, 
         file = file.planar()?;
     }
     let help = "write for example --set body.radius_mm=45";
-    let changes = args.set.iter().map(|text| setting(text, help)).collect::<Result<Vec<_>, _>>()?;
+    let changes = args.changes.set.iter().map(|text| setting(text, help)).collect::<Result<Vec<_>, _>>()?;
     each_once("--set", changes.iter().map(|(key, _)| *key))?;
     each_once("--effect", effect_names(&args.effect))?;
     if !changes.is_empty() {
@@ -140,7 +140,7 @@ pub(super) fn positive(option: &str, text: Option<&String>) -> Result<Option<f64
 
 pub(super) fn scattered(args: &ScatterArgs) -> Result<Generator> {
     let (camera_sd_m, per_hold) = (scatter("--sigma", &args.sigma)?, HoldScatter::USUAL);
-    let mut scattered = Generator { seed: args.seed, camera_sd_m, per_hold, ..Generator::default() };
+    let mut scattered = Generator { seed: args.random.seed, camera_sd_m, per_hold, ..Generator::default() };
     for typed in &args.scatter {
         let (key, value) = typed.split_once('=').unwrap_or((typed, ""));
         let option = format!("--scatter {key}");

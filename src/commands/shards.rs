@@ -22,7 +22,7 @@ fn job(args: &ShardArgs, options: &str, folder: &Path, context: &Context) -> Res
 }
 
 /// Options with a value that the job has and its shards have not.
-const OF_THE_JOB: [&str; 3] = ["--engine", "--shards", "--threads"];
+const OF_THE_JOB: [&str; 5] = ["--engine", "--slurm", "--hq", "--shards", "--threads"];
 
 /// Typed words without those that a shard gets otherwise.
 fn without(typed: &[String]) -> Vec<String> {
@@ -53,7 +53,7 @@ pub(super) struct Work<'w> {
 
 /// Has a scheduler run all shards, if one was asked for. `None`: the command goes on; else what it has to say.
 pub(super) fn by_scheduler(args: &ShardArgs, work: &Work, context: &mut Context) -> Result<Option<Outcome>> {
-    let Some((cluster, options)) = &args.engine else {
+    let Some((cluster, options)) = args.cluster() else {
         let help = "add --engine slurm or --engine hq";
         return if args.script {
             Err(Failure::usage("--script prints the job of a scheduler", help))
@@ -63,11 +63,11 @@ pub(super) fn by_scheduler(args: &ShardArgs, work: &Work, context: &mut Context)
     };
     let job = job(args, options, work.folder, context)?;
     if args.script {
-        return Ok(Some(Outcome::of(job.script(*cluster))));
+        return Ok(Some(Outcome::of(job.script(cluster))));
     }
     let (all, what) = (work.all.max(1) as f64, format!("{} by the scheduler", work.parts));
     let left = context.fem(|progress| {
-        job.run(*cluster, work.missing, &mut |left: usize| progress(&what, Some(1.0 - left as f64 / all)))
+        job.run(cluster, work.missing, &mut |left: usize| progress(&what, Some(1.0 - left as f64 / all)))
     })?;
     if left > 0 && !work.may_fail { Err(job.useless().into()) } else { Ok(None) }
 }
@@ -147,7 +147,7 @@ mod tests {
 
     #[test]
     fn a_shard_is_told_what_was_typed_but_for_what_it_gets_otherwise() {
-        let typed = "breakdown epam --pressure 5kPa --engine slurm --threads=4 --shards 3 --engine=hq --quiet --out a";
+        let typed = "breakdown epam --pressure 5kPa --engine slurm --threads=4 --shards 3 --slurm --mem=4G --hq=x --quiet --out a";
         let typed: Vec<String> = typed.split(' ').map(String::from).collect();
         assert_eq!(without(&typed).join(" "), "breakdown epam --pressure 5kPa --out a");
     }

@@ -120,7 +120,7 @@ fn notes(run: &FeRun, folder: &Path) -> Vec<String> {
 
 fn typed_again(args: &SimulateArgs) -> String {
     let pressure = args.pressure.iter().map(|p| ("pressure", p));
-    let others = args.mesh.iter().map(|m| ("mesh", m)).chain(args.set.iter().map(|s| ("set", s)));
+    let others = args.mesh.iter().map(|m| ("mesh", m)).chain(args.changes.set.iter().map(|s| ("set", s)));
     let from = args.from.iter().map(|folder| format!(" --from {}", folder.display()));
     pressure.chain(others).map(|(option, value)| format!(" --{option} {value}")).chain(from).collect()
 }

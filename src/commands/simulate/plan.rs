@@ -42,7 +42,7 @@ pub(super) fn plan(args: &SimulateArgs, source: RunSource) -> Result<RunPlan> {
             }
         };
     }
-    let set = args.set.iter().map(|text| setting(text)).collect::<Result<Vec<_>, _>>()?;
+    let set = args.changes.set.iter().map(|text| setting(text)).collect::<Result<Vec<_>, _>>()?;
     inputs::each_once("--set", set.iter().map(|(key, _)| key.as_str()))?;
     // A key with a table before it is one of the scenario, as in a sweep.
     let (of_robot, mut common): (Vec<_>, Vec<_>) = set.into_iter().partition(|(key, _)| key.contains('.'));
@@ -58,7 +58,8 @@ pub(super) fn plan(args: &SimulateArgs, source: RunSource) -> Result<RunPlan> {
     }
     let base = source.with(&common)?;
     if let Some(robots) = args.uncertain {
-        let known: Vec<&str> = args.set.iter().filter_map(|text| text.split('=').next()).map(str::trim).collect();
+        let known: Vec<&str> =
+            args.changes.set.iter().filter_map(|text| text.split('=').next()).map(str::trim).collect();
         return Ok(RunPlan::Uncertain(cube(base, &known, robots as usize)?));
     }
     let (scenario, run) = base.robot_run()?;
@@ -80,7 +81,7 @@ fn robot_option(args: &SimulateArgs) -> Option<&'static str> {
         ("--pressure", args.pressure.is_some()),
         ("--seeds", args.seeds.is_some()),
         ("--mesh", args.mesh.is_some()),
-        ("--set", !args.set.is_empty()),
+        ("--set", !args.changes.set.is_empty()),
         ("--uncertain", args.uncertain.is_some()),
         ("--numerics", args.numerics),
     ];

@@ -55,7 +55,7 @@ pub(super) fn uncertain(
         return Ok(told);
     }
     let many = context.fem(|progress| simulate_all(&jobs, &settings, progress))?;
-    let all = Uncertain::of(cube, &many, &args.set)?;
+    let all = Uncertain::of(cube, &many, &args.changes.set)?;
     let (measured, top) = (all.measured(), all.top_kpa());
     let weights = all.weights(top);
     let answer = UncertainAnswer {
