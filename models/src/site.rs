@@ -51,6 +51,9 @@ pub struct Site {
     pub linkage: Linkage,
     /// Share χ of the actuator's volume that is in the body and works against its pressure.
     pub inner_share: f64,
+    /// Bending stiffness of one sheet of the actuator \[N·m\], and of one side weld \[N·m²\]; 0 without the effects that have them.
+    pub(crate) sheet_nm: f64,
+    pub(crate) weld_nm2: f64,
     /// Share of the sides that are gussets which their ends hold.
     pub gusset_share: f64,
     /// Area of the section at rest \[m²\]: a circle's, unless the actuator draws it in.
@@ -205,6 +208,8 @@ impl Site {
             channel,
             linkage,
             inner_share: 0.0,
+            sheet_nm: 0.0,
+            weld_nm2: 0.0,
             gusset_share: 0.0,
             area_m2: PI * radius_m * radius_m,
             first_m3: 0.0,

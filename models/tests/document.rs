@@ -76,6 +76,7 @@ const MEANT: &[(&str, &str, &[[f64; 2]])] = &[
     ("arm_growth", "spam", HELD),
     ("gussets", "cpam", HELD),
     ("roofed_welds", "epam", LOW),
+    ("stuck_face", "spam", HELD),
     ("shear_lock", "fpam-textbook", HELD),
     ("self_contact", "cpam-textbook", HELD),
     ("gauge_drift", "epam", LONG),

@@ -1,6 +1,6 @@
 //! What an actuator states: words for people, laws as functions.
 
-use super::pattern::Pattern;
+use super::pattern::{ChamberBottom, Pattern};
 use super::shape::ActuatorShape;
 
 /// Contraction mechanism: what makes the actuator shorten under pressure.
@@ -69,6 +69,11 @@ impl Actuator {
             Family::Pouch => true,
             Family::Mckibben => false,
         }
+    }
+
+    /// Whether the body's wall is the bottom of its chambers.
+    pub fn in_wall(&self, shape: &ActuatorShape) -> bool {
+        matches!((self.pattern)(shape).joint, ChamberBottom::Wall)
     }
 }
 

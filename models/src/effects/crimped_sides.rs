@@ -45,6 +45,7 @@ pub(super) const ENTRY: Effect = Effect {
                     force[actuator_q::CONTRACTION] -= push;
                     push * at.q[actuator_q::CONTRACTION]
                 });
+                site.weld_nm2 = values[0];
                 site.act(*law, SideEffects::SHIFT);
             }
         }
@@ -53,6 +54,6 @@ pub(super) const ENTRY: Effect = Effect {
 };
 
 /// Part of the contraction that the way round in the plane of the wall leaves to the folds.
-const FOLDED: f64 = 1.0 - GATHERED * GATHERED;
+pub(super) const FOLDED: f64 = 1.0 - GATHERED * GATHERED;
 /// Curvature of the lost area over the weld's displacement.
-const FOUNDATION: f64 = 4.0 / (4.0 - PI);
+pub(super) const FOUNDATION: f64 = 4.0 / (4.0 - PI);

@@ -42,6 +42,7 @@ pub(super) const ENTRY: Effect = Effect {
                 inner: site.inner_share,
                 wall_m: site.drawn_in(site.strip_m).map_or(0.0, |flat| 0.5 * flat.radius_m * flat.cos),
             };
+            site.sheet_nm = values[0];
             site.act(term, SideEffects::SHIFT);
         }
     },

@@ -46,6 +46,7 @@ mod self_contact;
 mod shear_lock;
 mod shear_stiffness;
 mod softening;
+mod stuck_face;
 mod sunk_muscle;
 mod tail_tension;
 mod tapered_wall;
@@ -83,6 +84,7 @@ pub const EFFECTS: &[Effect] = &[
     roofed_welds::ENTRY,
     fold_energy::ENTRY,
     crimped_sides::ENTRY,
+    stuck_face::ENTRY,
     wrinkled_sheets::ENTRY,
     self_contact::ENTRY,
     weak_place::ENTRY,
@@ -134,6 +136,7 @@ pub const IN_SPACE: &[&str] = &[
     "roofed_welds",
     "fold_energy",
     "crimped_sides",
+    "stuck_face",
     "wrinkled_sheets",
     "pressure_offset",
     "pressure_loss",

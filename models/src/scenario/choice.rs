@@ -1,6 +1,5 @@
 //! The actuator of a scenario: its kind, its units and where they lie.
 
-use crate::actuators::pattern::ChamberBottom;
 use crate::actuators::{Actuator, ActuatorShape, BEAM, BIAS};
 use crate::effects::Effect;
 use std::f64::consts::TAU;
@@ -46,7 +45,7 @@ impl ActuatorChoice {
 
     /// Whether the body's wall is the bottom of its pouches.
     pub fn in_wall(&self) -> bool {
-        matches!((self.kind.pattern)(&self.shape).joint, ChamberBottom::Wall)
+        self.kind.in_wall(&self.shape)
     }
 
     /// Whether an effect can act on this robot: effects of a family, and all inside an actuator, need one.

@@ -26,6 +26,7 @@ const NAMES: &[&str] = &[
     "roofed_welds",
     "fold_energy",
     "crimped_sides",
+    "stuck_face",
     "wrinkled_sheets",
     "self_contact",
     "weak_place",

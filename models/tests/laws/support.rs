@@ -53,6 +53,7 @@ pub(crate) fn everything(actuator: &str) -> Scenario {
         ("sealed_sides", 0.02),
         ("roofed_welds", 0.02),
         ("fold_energy", 1e-8),
+        ("stuck_face", 1e-8),
     ];
     let has = |name: &str| all.effects.iter().any(|e| e.name == name);
     small.iter().filter(|(name, _)| has(name)).fold(all.clone(), |s, (name, value)| s.with_effect(name, &[*value]))
@@ -72,6 +73,7 @@ pub(crate) fn without_cell(scenario: &Scenario) -> Scenario {
             "roofed_welds",
             "fold_energy",
             "crimped_sides",
+            "stuck_face",
             "wrinkled_sheets",
         ]
         .contains(&e.name.as_str())

@@ -56,7 +56,8 @@ fn pouch(fabric: &PublishedFabric) -> Vec<MechanicsPart> {
     // A neo-Hookean sheet in its plane is 8 C10 stiff, as in the finite elements.
     let modulus_pa = fabric.c10_printed.map_or(0.5 * (fabric.e0_pa + fabric.e90_pa), |c10| 8e6 * c10);
     let bending = |factor: f64| factor * modulus_pa * fabric.thickness_m.powi(3) / 12.0;
-    let crimped = |width_m: f64| 0.5 * modulus_pa * fabric.thickness_m.powi(3) * width_m;
+    let bonded_nm = 0.5 * modulus_pa * fabric.thickness_m.powi(3);
+    let crimped = |width_m: f64| bonded_nm * width_m;
     vec![
         assumed("weld_width", WELD_M.0, Some(WELD_M.1), "welds of 3 mm; a line to a wide impulse seal"),
         predicted("chord_arm", 1.0, "the weld lines are chords of the body, not arcs"),
@@ -79,6 +80,12 @@ fn pouch(fabric: &PublishedFabric) -> Vec<MechanicsPart> {
             crimped(WELD_M.0),
             Some(WELD_M.1.map(crimped)),
             "two bonded plies in side welds as wide as the others",
+        ),
+        assumed(
+            "stuck_face",
+            bonded_nm,
+            Some([2.0 * bending(BENDING.1[0]), bonded_nm]),
+            "two bonded plies, as in the finite elements; in the wall it does nothing",
         ),
         assumed(
             "wrinkled_sheets",
