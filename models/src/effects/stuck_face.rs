@@ -150,7 +150,7 @@ mod tests {
         let sides = 2.0 * (crimp(weld + zone * plate) - crimp(weld)) * (1.0 - spared) * contraction * length;
         let energy = length * term.add(&Pose::new(&[theta, contraction, 0.0, 0.0], p_body, p_act), &mut [0.0; 4]);
         assert!((energy / (ends + sides) - 1.0).abs() < 1e-12, "{energy} {ends} {sides}");
-        // Two thirds of the half height is the mean of a flat lens, and 5 % less than that of a round one.
+        // Two thirds of the half height is the mean of a flat lens; a round one has 5 % more.
         let mean: f64 = (0..n)
             .map(|i| {
                 let phi = theta * ((2 * i + 1) as f64 / f64::from(n) - 1.0);
