@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! actuator.width_mm = 80
-//! pressure_kpa = 6.028
+//! pressure_kpa = 6.948
 //! reached: 2.5 mm from the target
 //! ```
 

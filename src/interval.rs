@@ -64,6 +64,16 @@ pub fn pressure_interval(scenario: &Scenario, target: Target) -> Result<Option<P
             }
         }
     }
+    // Some mechanisms do nothing to some robots.
+    places.retain(|([e, p], si, number)| {
+        let [low, high] = number.interval.map(|value| {
+            let mut robot = scenario.clone();
+            robot.effects[*e].values[*p] = value * si;
+            let model = Model::for_few(&robot);
+            model.pressure_for(target, scenario.p_body_pa, &mut model.prediction()).ok()
+        });
+        low.is_none() || low != high
+    });
     if places.is_empty() {
         return Ok(None);
     }

@@ -38,6 +38,8 @@ pub struct Job {
 }
 
 const LOOK: Duration = Duration::from_millis(300);
+/// Looks at the folder per question to the scheduler, whose answer takes a process and the time of its server.
+const LOOKS_PER_QUESTION: usize = 10;
 /// The job that was submitted, in the folder of the sweep.
 const SUBMITTED: &str = "job.json";
 
@@ -119,8 +121,12 @@ impl Job {
                 None => self.submit(cluster)?,
             };
             before = left;
-            while cluster.is_alive(&id) {
-                if watch(missing()).is_break() {
+            for look in 0.. {
+                let left = missing();
+                if (left == 0 || look % LOOKS_PER_QUESTION == 0) && !cluster.is_alive(&id) {
+                    break;
+                }
+                if watch(left).is_break() {
                     return Err(fem::FemError::interrupted(0, self.shards).into());
                 }
                 std::thread::sleep(LOOK);

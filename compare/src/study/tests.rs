@@ -209,7 +209,6 @@ fn the_published_ladders_go_effect_by_effect() {
         "chord_arm",
         "displaced_gas",
         "sealed_sides",
-        "roofed_welds",
         "fold_energy",
         "crimped_sides",
         "wrinkled_sheets",

@@ -253,10 +253,12 @@ impl Table {
             }
         }
         for i in 0..CHECKED[1] {
-            let p = slope_from_pa + share(i, CHECKED[1]) * (high - slope_from_pa);
-            let slope = sampler.model.jacobian(&sampler.loads(p), &mut sampler.state)?;
-            let own = slope.iter().map(|s| s.y_per_pa).sum::<f64>();
-            bound.slope_m_per_pa = bound.slope_m_per_pa.max((self.at(p, 1)[1] - own).abs());
+            let even = slope_from_pa + share(i, CHECKED[1]) * (high - slope_from_pa);
+            for p in [even, sampler.pressure(share(i, CHECKED[1])).max(slope_from_pa)] {
+                let slope = sampler.model.jacobian(&sampler.loads(p), &mut sampler.state)?;
+                let own = slope.iter().map(|s| s.y_per_pa).sum::<f64>();
+                bound.slope_m_per_pa = bound.slope_m_per_pa.max((self.at(p, 1)[1] - own).abs());
+            }
         }
         Ok(bound)
     }
