@@ -6,11 +6,11 @@
 //!
 //! ```text
 //! step 0:  1.25 kPa, tip at 0.00 mm
-//! step 1:  1.89 kPa, tip at 0.00 mm
-//! step 2:  2.80 kPa, tip at 2.34 mm
-//! step 3:  4.24 kPa, tip at 25.30 mm
-//! step 4:  5.97 kPa, tip at 59.30 mm
-//! step 5:  6.04 kPa, tip at 60.60 mm
+//! step 1:  1.90 kPa, tip at 0.00 mm
+//! step 2:  2.81 kPa, tip at 2.41 mm
+//! step 3:  4.25 kPa, tip at 25.60 mm
+//! step 4:  5.98 kPa, tip at 59.45 mm
+//! step 5:  6.04 kPa, tip at 60.46 mm
 //! ```
 
 use ibr::models::Target;

@@ -22,6 +22,8 @@ use serde::Serialize;
 pub const ROBOT: [&str; 2] = ["epam", "fem-epam"];
 const ROBOTS: [&str; 4] = ["spam", "cpam", "epam", "fpam"];
 const LEFT_OUT_PA: f64 = 4e3;
+/// Least fall of the error that is a step, as a share of the first error.
+const LEAST_GAIN: f64 = 0.01;
 
 /// Results of the five panels, from a textbook model to both engines.
 #[derive(Debug, Clone)]
@@ -112,10 +114,12 @@ impl DemoPath<'_> {
         Ok(Mechanism { effect: effect.into(), sentence: sentence.into(), error_mm, left_out_mm })
     }
 
-    /// Every mechanism that the model lacks, added alone, the nearest first.
+    /// Every mechanism that the model lacks and that does something to this robot, added alone, the nearest first.
     fn tried(&self, base: &Scenario) -> Result<Vec<(Scenario, Mechanism)>, CompareError> {
         let lacking = self.shipped.effects.iter().filter(|e| base.effects.iter().all(|own| own.name != e.name));
         let mut tried = lacking.map(|e| self.with(base, &e.name)).collect::<Result<Vec<_>, _>>()?;
+        let before_mm = self.judged(base, "", "")?.error_mm;
+        tried.retain(|(_, mechanism)| mechanism.error_mm != before_mm);
         sort_by(&mut tried, |(_, mechanism)| mechanism.error_mm);
         Ok(tried)
     }
@@ -124,12 +128,12 @@ impl DemoPath<'_> {
         Ok(self.tried(base)?.into_iter().map(|(_, mechanism)| mechanism).collect())
     }
 
-    /// Adds the mechanism that leaves least, as long as one lowers the error.
+    /// Adds the mechanism that leaves least, as long as one lowers the error by a hundredth of the first.
     fn steps(&self, base: &Scenario) -> Result<Vec<Mechanism>, CompareError> {
         let (mut model, first) = self.with(base, "")?;
         let mut steps = vec![first];
         while let Some((next, step)) = self.tried(&model)?.into_iter().next() {
-            if steps.last().is_some_and(|last| step.error_mm >= last.error_mm) {
+            if steps.last().is_some_and(|last| step.error_mm > last.error_mm - LEAST_GAIN * steps[0].error_mm) {
                 break;
             }
             model = next;
