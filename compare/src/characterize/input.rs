@@ -4,7 +4,7 @@ use super::{Characterized, Reduction, characterize};
 use crate::CompareError;
 use crate::progress::Progress;
 use data::bench::bending_lengths_m;
-use data::{Bench, Coupon, CouponDefaults, bench, parse_coupons, read_coupons};
+use data::{Bench, Coupon, CouponDefaults, SetInfo, bench, parse_coupons, read_coupons};
 use fem::session::FileHash;
 use spelling::files::{MOST_DATA, read_whole};
 use std::path::Path;
@@ -21,7 +21,7 @@ pub struct FabricTests {
 }
 
 impl FabricTests {
-    /// Reads tensile and cantilever tests.
+    /// Reads tensile and cantilever tests; the name of an embedded set stands for its coupons.
     ///
     /// # Errors
     /// A fault of a file, or a table that is of no fabric.
@@ -29,9 +29,27 @@ impl FabricTests {
         let mut tests = FabricTests::default();
         for file in files {
             tell(&format!("reading {file}"), None);
-            tests.add(file, defaults)?;
+            match data::sets().into_iter().find(|set| set.name == *file && !Path::new(file).exists()) {
+                Some(set) => tests.add_set(&set, defaults)?,
+                None => tests.add(file, defaults)?,
+            }
         }
         Ok(tests)
+    }
+
+    fn add_set(&mut self, set: &SetInfo, defaults: &CouponDefaults) -> Result<(), CompareError> {
+        let coupons: Vec<&String> = set.files.iter().filter(|name| name.starts_with("coupon")).collect();
+        if coupons.is_empty() {
+            let help = "`ibr list datasets` shows the files of every set";
+            return Err(CompareError::refused(format!("the set {} has no tests of a fabric", set.name), help));
+        }
+        for name in coupons {
+            let (text, shown) = (data::set_file(&set.name, name)?, format!("set:{}/{name}", set.name));
+            self.files.push(FileHash::of(&shown, text.as_bytes()));
+            let size = text.len() as u64;
+            self.coupons.extend(parse_coupons(&shown, &mut text.as_bytes(), size, defaults, &mut |_, _| ())?);
+        }
+        Ok(())
     }
 
     fn add(&mut self, file: &str, defaults: &CouponDefaults) -> Result<(), CompareError> {

@@ -303,6 +303,17 @@ fn nylon(degrees: &[u32]) -> Characterized {
     characterize(&coupons, &Reduction::default()).unwrap()
 }
 
+#[test]
+fn the_name_of_an_embedded_set_stands_for_its_coupons() {
+    let read = |name: &str| FabricTests::read(&[name.into()], &CouponDefaults::default(), &mut |_, _| ());
+    let tests = read("nylon-offaxis").unwrap();
+    assert_eq!((tests.coupons.len(), tests.files.len()), (7, 7));
+    let [all, some] = [tests.reduce(&Reduction::default()).unwrap(), nylon(&[0, 15, 30, 45, 60, 75, 90])];
+    assert_eq!(all.quantity("g12"), some.quantity("g12"));
+    let refused = read("fem-epam").unwrap_err().to_string();
+    assert!(refused.contains("fem-epam has no tests of a fabric"), "{refused}");
+}
+
 /// A law with the yarns' stretch twice in it gives a real nylon with E0/E45 = 2.1 a fifth too little in its own test at 45°.
 /// Judged by the law pulled with free edges, not by the zones that the shear came from: 43 widths long, grips do 2 %.
 #[test]
