@@ -18,9 +18,9 @@
 //! | n | narrowing by the sides of `sealed_sides` over a | - |
 //!
 //! Each function of γ is a parabola through its values at 0, γ₀ and ½γ₀, γ₀ where A is largest, so γ = −c₁/2c₂ and E = −c₁²/4c₂ for c₁ < 0:
-//! within 3 % of the exact functions. Flat pouches have the energy of the gas in their roofs. One state for every load, which finite elements confirm: the same tips while the pressure rises and
-//! falls. Left out: the arm, which a roof raises (up to 8 % of a bend of a few degrees); the outer sheet's own round over the ridge; a base
-//! that is held round, next to which half a pouch stays a roof.
+//! within 3 % of the exact functions. Flat pouches have the energy of the gas in their roofs. There is one state for every load; finite
+//! elements have the same tips while the pressure rises and falls. Left out: the arm, which a roof raises (up to 8 % of a bend of a few
+//! degrees); the outer sheet's own round over the ridge; a base that is held round, next to which half a pouch stays a roof.
 
 use super::entry::*;
 use super::sealed_sides::SealedSides;
