@@ -21,7 +21,7 @@ pub struct FabricTests {
 }
 
 impl FabricTests {
-    /// Reads tensile and cantilever tests; the name of an embedded set stands for its coupons.
+    /// Reads tensile and cantilever tests; an embedded set is read by its name.
     ///
     /// # Errors
     /// A fault of a file, or a table that is of no fabric.
