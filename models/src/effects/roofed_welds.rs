@@ -33,7 +33,7 @@ pub(super) const ENTRY: Effect = Effect {
     name: "roofed_welds",
     formula: "E = min over γ of p_b [(A(0) − A(γ)) L₀ + (2 tanγ A' + n (A' − A'(0))) ∫a dx] + 4 tanγ (P − χ p_b) ∫a²dx per pitch",
     sentence: "The gas of the body lifts the middle of each weld to a roof, and the pouches open only as they pull it flat.",
-    differs: "The bend comes late: much is missing below 2.5 times the body's pressure, nothing above.",
+    differs: "The bend comes late: much is missing below 2.5 times the body's pressure, and above it with pouches that are short.",
     remedy: "Look along the robot at low pressure: whether its welds are straight or rise in the middle.",
     validity: "welds across the wall that fold in their middle",
     reference: "derived here",

@@ -88,9 +88,9 @@ fn patterns_and_fabrics_of_the_robots_agree_with_the_text() {
 
 #[test]
 fn what_needs_runs_says_so_without_them() {
-    let told = facts(&published().unwrap(), &[]);
-    let needy: Vec<&FactRow> = told.iter().filter(|row| row.verdict != FactVerdict::Holds).collect();
-    assert_eq!((needy.len(), told.len()), (15, 18));
+    let rows = facts(&published().unwrap(), &[]);
+    let needy: Vec<&FactRow> = rows.iter().filter(|row| row.verdict != FactVerdict::Holds).collect();
+    assert_eq!((needy.len(), rows.len()), (15, 18));
     assert!(needy.iter().all(|row| row.verdict.words().starts_with("cannot be checked: no run of")), "{needy:?}");
 }
 
