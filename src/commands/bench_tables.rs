@@ -28,7 +28,7 @@ pub(super) fn compared(args: &CompareArgs, context: &mut Context) -> Result<Opti
     ];
     refuse_options(spec, &given)?;
     (context.progress)("comparing", None);
-    let mut scenario = scenario(typed.first(), spec, &bench)?;
+    let mut scenario = scenario(typed.first(), &bench)?;
     inputs::each_once("--effect", inputs::effect_names(&args.effect))?;
     for text in &args.effect {
         let Some(before) = &scenario else {
@@ -59,7 +59,7 @@ pub(super) fn diagnosed(args: &DiagnoseArgs, context: &mut Context) -> Result<Op
     ];
     refuse_options(spec, &given)?;
     let sigma = args.fit.noise.sigma.as_deref().map(share).transpose()?;
-    let scenario = scenario(args.data.as_ref().map(|_| &args.scenario), spec, &table)?;
+    let scenario = scenario(args.data.as_ref().map(|_| &args.scenario), &table)?;
     (context.progress)("fitting every effect", Some(READ));
     let options = BenchOptions { sigma, refit: args.refit, ..BenchOptions::default() };
     let found = diagnose_bench(&table, scenario.as_ref(), &options)?;
@@ -67,10 +67,10 @@ pub(super) fn diagnosed(args: &DiagnoseArgs, context: &mut Context) -> Result<Op
     Ok(Some(Outcome::answer(diagnosis_text(&found, &table), "ibr.diagnose.bench", &answer)))
 }
 
-fn scenario(typed: Option<&String>, spec: &str, bench: &Bench) -> Result<Option<Scenario>> {
+fn scenario(typed: Option<&String>, bench: &Bench) -> Result<Option<Scenario>> {
     Ok(match (typed, &bench.scenario) {
         (Some(typed), _) => Some(ibr::studies::scenario(typed)?.planar()?.scenario),
-        (None, Some(text)) => Some(ScenarioFile::parse(&format!("{spec}/scenario.toml"), text)?.planar()?.scenario),
+        (None, Some((place, text))) => Some(ScenarioFile::parse(place, text)?.planar()?.scenario),
         (None, None) => None,
     })
 }

@@ -72,12 +72,12 @@ fn what_a_table_is_not_for_is_refused_with_the_command_that_is() {
 #[test]
 fn a_table_is_diagnosed_like_markers() {
     let folder = Folder::new();
-    let text = folder.run(&["diagnose", "festo-bolen-2026"]);
+    let text = folder.run(&["diagnose", "fpam-textbook", "festo-bolen-2026"]);
     assert_eq!(text.code, 0, "{}", text.stderr);
     for words in ["ranking only", "end_fittings", "left-out specimen", "Where the model as it is fails", "line 6"] {
         assert!(text.stdout.contains(words), "no `{words}` in {}", text.stdout);
     }
-    let answer = folder.run(&["diagnose", "festo-bolen-2026", "--sigma", "10%", "--json"]).json("ibr.diagnose.bench");
+    let answer = folder.run(&["diagnose", "fpam-textbook", "festo-bolen-2026", "--sigma", "10%", "--json"]).json("ibr.diagnose.bench");
     assert!(answer["verdict"].is_string() && answer["p_value"].is_number(), "{answer}");
     assert_eq!((answer["rows"].as_u64(), answer["provenance"].as_str()), (Some(4), Some("published")));
     assert_eq!(answer["ranked"][0]["effect"], "end_fittings");

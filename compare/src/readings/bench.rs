@@ -2,7 +2,7 @@
 //!
 //! The model of a beam is the `[body]` of a scenario, loaded at its tip. The model of a muscle is the scenario's actuator alone
 //! between two grips ([`models::Machine`]), in the size that the table gives; without a scenario the ideal braid (Chou and Hannaford
-//! 1996). A mean with its standard deviation and n gets a verdict: is the model within the 95 % interval of the mean?
+//! 1996) on plugs, as braids are clamped (`end_fittings`, published). A mean with its standard deviation and n gets a verdict: is the model within the 95 % interval of the mean?
 
 use data::Bench;
 use data::bench::BenchRow;
@@ -249,9 +249,9 @@ fn calibrated_on(group: &[BenchRow]) -> Option<&BenchRow> {
 
 /// Flat width of a free muscle of unknown size \[m\].
 pub(crate) const ANY_WIDTH_M: f64 = 0.02;
-const LONG: f64 = 1e4;
+const LONG: f64 = 1e6;
 
-/// The scenario for a table without one: for a muscle the ideal braid, whose size and angle the table must give.
+/// The scenario for a table without one: for a muscle the ideal braid on plugs, whose size and angle the table must give.
 ///
 /// # Errors
 /// A beam without a scenario.
@@ -265,7 +265,7 @@ pub(crate) fn own_or_braid(bench: &Bench, scenario: Option<&Scenario>) -> Result
     };
     let shape = &mut braid.actuator.shape;
     (shape.width_m, shape.length_m, shape.bias_rad) = (f64::NAN, f64::NAN, f64::NAN);
-    Ok(Scenario { name: "ideal braid".into(), ..braid.bare() })
+    Ok(Scenario { name: "ideal braid on plugs".into(), ..braid.bare().with_effect("end_fittings", &[1.0]) })
 }
 
 /// A row in words: size, pressure, load.
@@ -301,7 +301,7 @@ mod tests {
 
     fn set(name: &str) -> (Bench, Option<Scenario>) {
         let bench = data::bench::bench(name).unwrap().unwrap();
-        let scenario = bench.scenario.as_deref().map(|text| Scenario::parse(text).unwrap());
+        let scenario = bench.scenario.as_ref().map(|(_, text)| Scenario::parse(text).unwrap());
         (bench, scenario)
     }
 

@@ -48,8 +48,8 @@ pub struct Bench {
     pub provenance: Provenance,
     /// Its rows, in the order of the file.
     pub rows: Vec<BenchRow>,
-    /// The robot of the folder or set it came from, as a scenario's text.
-    pub scenario: Option<String>,
+    /// The robot of the folder or set it came from: place and text of its scenario.
+    pub scenario: Option<(String, String)>,
 }
 
 /// A mean with its scatter makes sense with both numbers only.

@@ -44,7 +44,8 @@ pub fn bench(spec: &str) -> Result<Option<Bench>> {
         let Some(text) = read_whole(path, MOST_DATA).ok().and_then(|bytes| String::from_utf8(bytes).ok()) else {
             return Ok(None);
         };
-        let scenario = path.parent().and_then(|folder| std::fs::read_to_string(folder.join("scenario.toml")).ok());
+        let beside = path.with_file_name("scenario.toml");
+        let scenario = std::fs::read_to_string(&beside).ok().map(|text| (beside.display().to_string(), text));
         return read::parse(KINDS, spec, &text).map(|found| found.map(|bench| Bench { scenario, ..bench }));
     }
     for kind in KINDS {
@@ -54,7 +55,7 @@ pub fn bench(spec: &str) -> Result<Option<Bench>> {
             let message = format!("the columns do not fit a {} table", kind.name);
             return Err(DataError::of(&shown, message, format!("write {}", read::wanted(kind))));
         };
-        let scenario = part(spec, "scenario.toml").map(|(_, text)| text);
+        let scenario = part(spec, "scenario.toml");
         return Ok(Some(Bench { scenario, ..bench }));
     }
     Ok(None)

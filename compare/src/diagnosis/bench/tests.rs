@@ -148,12 +148,14 @@ fn what_no_effect_explains_is_said_to_be_outside_with_its_place() {
 fn published_tables_are_ranked_without_a_verdict_and_with_one_where_their_scatter_is_told() {
     let diagnosed = |set: &str, options: &BenchOptions| {
         let bench = bench(set).unwrap().unwrap();
-        let scenario = bench.scenario.as_deref().map(|text| Scenario::parse(text).unwrap());
+        let scenario = bench.scenario.as_ref().map(|(_, text)| Scenario::parse(text).unwrap());
         let scenario = scenario.map(|s| Scenario { segments: 30, ..s });
         diagnose_bench(&bench, scenario.as_ref(), options).unwrap()
     };
-    let festo = diagnosed("festo-bolen-2026", &BenchOptions::default());
-    assert_eq!((festo.verdict, festo.set().next().unwrap().effect.as_str()), (None, "end_fittings"));
+    let festo = data::bench::bench("festo-bolen-2026").unwrap().unwrap();
+    let textbook = Scenario::parse(models::shipped("fpam-textbook").unwrap()).unwrap();
+    let found = diagnose_bench(&festo, Some(&textbook), &BenchOptions::default()).unwrap();
+    assert_eq!((found.verdict, found.set().next().unwrap().effect.as_str()), (None, "end_fittings"));
     let told = diagnosed("festo-bolen-2026", &BenchOptions { sigma: Some(0.05), ..BenchOptions::default() });
     assert!(told.verdict.is_some() && told.p_value.is_some(), "{:?}", told.summary);
     let free = diagnosed("mckibben-free", &BenchOptions::default());
