@@ -13,12 +13,16 @@ fn a_beam_and_a_muscle_are_compared_like_markers() {
         "{}",
         beam.stdout
     );
+    let stiff = folder.run(&["compare", "breukels-2011-beams"]);
+    assert!(stiff.stdout.contains("note: the scenario has no wall_stiffness_n_per_m"), "{}", stiff.stdout);
     let answer = folder.run(&["compare", "festo-bolen-2026", "--json"]).json("ibr.compare.bench");
     assert_eq!(
         (answer["kind"].as_str(), answer["provenance"].as_str()),
         (Some("force_contraction"), Some("published"))
     );
     assert_eq!(answer["held"]["rows"].as_array().unwrap().len(), 4);
+    let least = answer["held"]["rows"][1]["model"].as_f64().unwrap();
+    assert!((least - 89.08).abs() < 0.01, "the short muscle pulls less for its plugs: {least}");
     // A table of one's own, with scatter, beside its scenario.
     folder.write("scenario.toml", data::set_file("breukels-2011-beams", "scenario.toml").unwrap());
     folder.write("mine.csv", "p_body_kpa,load_n,deflection_mm,deflection_sd_mm,n\n30,4,5,50,3\n30,4,5,0.001,3\n");
@@ -77,7 +81,9 @@ fn a_table_is_diagnosed_like_markers() {
     for words in ["ranking only", "end_fittings", "left-out specimen", "Where the model as it is fails", "line 6"] {
         assert!(text.stdout.contains(words), "no `{words}` in {}", text.stdout);
     }
-    let answer = folder.run(&["diagnose", "fpam-textbook", "festo-bolen-2026", "--sigma", "10%", "--json"]).json("ibr.diagnose.bench");
+    let answer = folder
+        .run(&["diagnose", "fpam-textbook", "festo-bolen-2026", "--sigma", "10%", "--json"])
+        .json("ibr.diagnose.bench");
     assert!(answer["verdict"].is_string() && answer["p_value"].is_number(), "{answer}");
     assert_eq!((answer["rows"].as_u64(), answer["provenance"].as_str()), (Some(4), Some("published")));
     assert_eq!(answer["ranked"][0]["effect"], "end_fittings");

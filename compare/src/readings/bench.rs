@@ -114,6 +114,9 @@ pub fn held(bench: &Bench, scenario: Option<&Scenario>, calibrate: bool) -> Resu
         (false, true) => Known::Assumed,
         _ => Known::Calibrated,
     };
+    if beam && !calibrate && scenario.wall.stiffness_n_per_m.is_none() {
+        notes.push(NO_WALL.into());
+    }
     let title = format!("{what}, {} against {}", scenario.name, bench.file);
     Ok(ComparedBench { title, quantity: quantity.into(), known, rows, notes })
 }
@@ -250,6 +253,10 @@ fn calibrated_on(group: &[BenchRow]) -> Option<&BenchRow> {
 /// Flat width of a free muscle of unknown size \[m\].
 pub(crate) const ANY_WIDTH_M: f64 = 0.02;
 const LONG: f64 = 1e6;
+
+/// What a beam without a fabric is compared as.
+const NO_WALL: &str = "the scenario has no wall_stiffness_n_per_m, so the wall does not stretch and deflections are the least possible; \
+                       --calibrate takes E t from the first load of each beam";
 
 /// The scenario for a table without one: for a muscle the ideal braid on plugs, whose size and angle the table must give.
 ///

@@ -28,7 +28,8 @@
 //! **Cost.** A pair is looked at when nodes of its chunk can have moved far enough against each other to matter. The search
 //! measures the distances of what it finds, so that a pair far apart waits. A folded pouch of 1400 elements takes 6.4 times the
 //! CPU time per step of one with nodes against faces alone, and a seventh more steps. Closest points and meetings, one pair
-//! after the other, are half of it; what the search does besides is a fifth, so a search without cost would leave 5 times.
+//! after the other, are half of it; what the search does besides is a fifth: a search without cost would leave 5 times, closest
+//! points without cost in addition 2.2. A step looks at 1500 springs and 1700 meetings; 400 springs push.
 //! A skin of 0.4 or 0.6 elements takes the same time within the scatter; 0.15 takes a fifth more.
 //!
 //! **Validity**: layers must start apart and not crossed. What starts as one point (closer than 0.0001 `gap_m`) is left alone
