@@ -75,6 +75,7 @@ pub(crate) fn measure_holds(
         coordinates_m,
         gauge_pa: g.gauge.then_some(readings),
         lost: data::Lost::default(),
+        pressure_units: data::IN_KPA,
         told: Vec::new(),
     };
     let made = made.checked()?;

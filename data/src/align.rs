@@ -56,6 +56,7 @@ pub(crate) fn align(
         coordinates_m,
         gauge_pa,
         lost: none,
+        pressure_units: recorder.pressure_units,
         told: Vec::new(),
     };
     if !lost.is_empty() {

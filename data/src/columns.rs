@@ -214,7 +214,15 @@ pub(crate) fn shared(fields: &[Field], notes: &[Note]) -> Result<Vec<Option<f64>
     let mut values = vec![None; fields.len()];
     for note in notes {
         let Note { key, text, .. } = note;
-        let Some((at, ending)) = meaning(key, fields) else { continue };
+        let Some((at, ending)) = meaning(key, fields) else {
+            let near = || spelling::nearest(key, fields.iter().map(|field| field.expected));
+            match text.parse::<f64>().ok().and_then(|_| near()) {
+                Some(near) => {
+                    return Err(note.wrong(format!("unknown {key}"), format!("did you mean # {near}: {text}?")));
+                }
+                None => continue,
+            }
+        };
         let expected = fields[at].expected;
         let value = match (ending, text.parse::<f64>().ok().filter(|value| value.is_finite())) {
             (Ending::Known(unit), Some(value)) => unit.map_or(value, |unit| unit.to_si(value)),

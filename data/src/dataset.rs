@@ -102,9 +102,14 @@ pub struct Dataset {
     pub gauge_pa: Option<Vec<f64>>,
     /// Cells that a camera lost for a whole hold.
     pub lost: Lost,
+    /// Units that the table names for the pressures of actuator and body.
+    pub pressure_units: [&'static str; 2],
     /// What reading assumed about the file, in words.
     pub told: Vec<String>,
 }
+
+/// Units of the pressures in tables of this program, actuator and body.
+pub const IN_KPA: [&str; 2] = ["kPa"; 2];
 
 impl Dataset {
     /// Number of values of one run: holds × samples × markers × axes.

@@ -46,7 +46,7 @@ pub use bench::{Bench, bench, parse_bench};
 pub use check::{CheckReport, check};
 pub use correction::{CorrectionTable, parse_correction};
 pub use coupons::{Coupon, CouponDefaults, Direction, Pulled, parse_coupons, read_coupons};
-pub use dataset::{Dataset, Hold, Lost, Marker, Phase};
+pub use dataset::{Dataset, Hold, IN_KPA, Lost, Marker, Phase};
 pub use error::{ClockTracks, DataError, Fault, Location, Result};
 pub use lines::Progress;
 pub use load::load;

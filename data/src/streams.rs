@@ -12,7 +12,7 @@ use std::collections::HashMap;
 use crate::cells::Labels;
 use crate::columns::TableSheet;
 use crate::error::{DataError, Result};
-use crate::header::{GAUGE, MARKER, PRESSURES, QUANTITIES, RUN, STATION, TIME, X, Y, Z, more_channels};
+use crate::header::{GAUGE, MARKER, P_ACT, P_BODY, PRESSURES, QUANTITIES, RUN, STATION, TIME, X, Y, Z, more_channels};
 use crate::lines::TextLine;
 use crate::policy;
 use crate::rows::{Cells, Observation, lowest_mean_pa};
@@ -36,6 +36,8 @@ pub(crate) struct Recorder {
     pub has_z: bool,
     /// The table has readings of a gauge.
     pub has_gauge: bool,
+    /// Units that the columns of actuator and body pressure name.
+    pub pressure_units: [&'static str; 2],
     pub lost_frames: u64,
     /// Rows with a placeholder for a position.
     pub placeholders: Placeholders,
@@ -51,6 +53,7 @@ impl Recorder {
             more_channels: more_channels(sheet),
             has_z: sheet.has(Z),
             has_gauge: sheet.has(GAUGE),
+            pressure_units: [P_ACT, P_BODY].map(|column| sheet.unit(column)),
             ..Recorder::default()
         }
     }

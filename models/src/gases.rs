@@ -13,7 +13,9 @@
 //!
 //! **Validity**: pressures that are the set ones. With effects of the supply or of the body's pressure, columns are slopes by *set* pressures
 //! and rows are volumes at true ones, so the matrix is not symmetric. The energy of a fold follows the pressure, so its round part is
-//! in the volume. Derived here (the envelope theorem); finite elements measure the same on their mesh, `fem::robot::Inflated`.
+//! in the volume. Where a pouch or muscle begins to open, the tension of a fold vanishes and its energy has no slope by the pressure: there
+//! a gas would shrink as its pressure rises, which no stable state does, and every volume is NaN. Derived here (the envelope theorem);
+//! finite elements measure the same on their mesh, `fem::robot::Inflated`.
 
 use crate::error::Solved;
 use crate::model::{Model, Prediction};
@@ -31,10 +33,13 @@ pub const BODY_GAS: usize = CHANNELS;
 /// Step of the slopes over pressure, as a share of it: energies are linear in pressures, folds go with their roots.
 const STEP: f64 = 1e-3;
 
+/// A slope of a volume by its own pressure below this share of it is rounding \[1/Pa\].
+const LEAST_RISE: f64 = 1e-9;
+
 /// Volumes of the gases of every channel and, last, of the body.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct GasVolumes {
-    /// Volume of gas in the actuators of every channel and, last, in the body \[m³\].
+    /// Volume of gas in the actuators of every channel and, last, in the body \[m³\]; NaN where the laws give none.
     #[serde(rename = "gas_cm3", serialize_with = "si::cm3")]
     pub m3: [f64; GASES],
     /// Slope of a volume (row) by a pressure (column), in the same order \[m³/Pa\]; NaN by the pressure of a flat actuator.
@@ -65,6 +70,11 @@ impl Model {
                 _ => self.slopes(loads, gas, &flat, out, &|loads, at| self.gases_m3(loads, at))?,
             };
             per_pa.iter_mut().zip(column).for_each(|(row, slope)| row[gas] = slope);
+        }
+        // A gas in a stable state does not shrink as its own pressure rises.
+        let shrinks = |gas: usize| m3[gas] < 0.0 || per_pa[gas][gas] < -LEAST_RISE * m3[gas].abs();
+        if self.channels().chain([BODY_GAS]).any(shrinks) {
+            return Ok(GasVolumes { m3: [f64::NAN; GASES], per_pa: [[f64::NAN; GASES]; GASES] });
         }
         Ok(GasVolumes { m3, per_pa })
     }

@@ -75,8 +75,9 @@ impl Target {
             }
             _ => {
                 let (least, most) = if let Reach::Beyond { least, most } = found { (*least, *most) } else { NOWHERE };
-                // A zero of either sign is reported as zero.
-                let (lowest, highest) = (least * factor + 0.0, most * factor + 0.0);
+                // What is zero in print has no sign.
+                let shown = |v: f64| if (v * factor).abs() < 5e-5 { 0.0 } else { v * factor };
+                let (lowest, highest) = (shown(least), shown(most));
                 Unsolved::OutOfReach { what, target, lowest, highest, unit, p_max_kpa: p_max_pa / 1e3 }
             }
         }

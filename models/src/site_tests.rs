@@ -33,3 +33,19 @@ fn the_start_value_of_a_place_without_effects_is_its_equilibrium_also_with_a_gro
         }
     }
 }
+
+/// A law without a value would let the search for the balance end anywhere.
+#[test]
+fn every_law_of_a_shipped_robot_has_a_value_in_narrow_and_wide_pouches() {
+    for robot in ["spam", "cpam", "epam"] {
+        for width_mm in [20, 40, 80, 100, 110, 120] {
+            let text = crate::shipped(robot).unwrap().replace("width_mm = 60", &format!("width_mm = {width_mm}"));
+            let Ok(scenario) = crate::Scenario::parse(&text) else { continue };
+            let model = crate::Model::new(&scenario);
+            for p in [2001.0, 2.3e3, 3e3, 6e3, 3e4] {
+                let found = model.assembly().sites[0].without_value(&SiteLoads::new(2e3, p));
+                assert_eq!(found, None, "{robot} {width_mm} mm {p} Pa");
+            }
+        }
+    }
+}

@@ -35,7 +35,9 @@ pub(super) fn each_once<'t>(option: &str, names: impl IntoIterator<Item = &'t st
 pub(super) fn without_data(verb: &str, name: &str) -> Failure {
     let help = match scenario(name).is_ok() {
         true => format!("name them after it: `ibr {verb} {name} DATA`, for example `ibr {verb} {name} synthetic-epam`"),
-        false => format!("a scenario comes first: `ibr {verb} epam {name}`; tables of beams and muscles stand alone"),
+        false => format!(
+            "a scenario comes first: `ibr {verb} epam {name}`; tables of beams and muscles stand alone, `ibr characterize {name}` reads tests of fabrics"
+        ),
     };
     Failure::usage(format!("{name} alone: a scenario and data are needed"), help)
 }

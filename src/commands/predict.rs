@@ -82,7 +82,8 @@ fn interval_words(found: &PressureInterval) -> String {
         0 => String::new(),
         missed => format!("; {missed} of {} robots do not reach the target", found.robots),
     };
-    format!("Over the intervals of numbers that were not measured: {pressures}{missed}\n  {}\n", numbers.join("\n  "))
+    let drawn = format!("Over {} robots drawn from the intervals of numbers that were not measured", found.robots);
+    format!("{drawn}: {pressures}{missed}\n  {}\n", numbers.join("\n  "))
 }
 
 fn place((x, y): (&str, &str)) -> Result<[f64; 2]> {

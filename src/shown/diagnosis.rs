@@ -55,10 +55,7 @@ pub fn text(d: &Diagnosis, witness: Option<&Witness>, all: bool) -> String {
         }
         out.push_str(&not_seen(d));
     }
-    out.push_str(
-        "\nEvery effect, pair and experiment: add --tables. The picture of the missing moment: add --out FOLDER.\n",
-    );
-    out
+    out + "\nEvery effect, pair and experiment: add --tables. The picture of the missing moment: in the report of --out FOLDER.\n"
 }
 
 /// The verdict in words, with its ties.

@@ -15,6 +15,7 @@ use std::f64::consts::FRAC_PI_2;
 use crate::CompareError;
 use crate::fit::numbers::{largest, least, mean};
 use crate::stats::t_975;
+use crate::wording;
 use models::Known;
 
 /// A bench table compared with the model's values, row by row.
@@ -79,17 +80,21 @@ impl ComparedBench {
 ///
 /// # Errors
 /// A kind without a model, or a scenario that is missing.
-pub fn held(bench: &Bench, scenario: Option<&Scenario>, calibrate: bool) -> Result<ComparedBench, CompareError> {
+pub fn held(bench: &Bench, given: Option<&Scenario>, calibrate: bool) -> Result<ComparedBench, CompareError> {
     let beam = is_beam(bench)?;
-    let scenario = own_or_braid(bench, scenario)?;
+    let scenario = own_or_braid(bench, given)?;
     let of_one_specimen: &[&str] = if beam { &["p_body", "radius"] } else { &["muscle"] };
     let (mut rows, mut notes) = (Vec::new(), Vec::new());
     for group in bench.rows.chunk_by(|a, b| of_one_specimen.iter().all(|key| a.get(key) == b.get(key))) {
         let mut trial = Trial { scenario: scenario.clone(), bias_rad: None };
-        let fitted = calibrated_on(group).filter(|_| calibrate);
+        let mut fitted = calibrated_on(group).filter(|_| calibrate);
         if let Some(row) = fitted {
-            let specimen = trial.specimen_of(bench, &group[0]);
-            notes.push(if beam { trial.calibrate_wall(row, &specimen?) } else { trial.calibrate_angle(row) });
+            let (is_met, note) = match beam {
+                true => trial.calibrate_wall(row, &trial.specimen_of(bench, &group[0])?),
+                false => trial.calibrate_angle(row),
+            };
+            notes.push(note);
+            fitted = fitted.filter(|_| is_met);
         }
         for row in group {
             let specimen = trial.specimen_of(bench, row)?;
@@ -109,11 +114,19 @@ pub fn held(bench: &Bench, scenario: Option<&Scenario>, calibrate: bool) -> Resu
         }
     }
     let (what, quantity) = if beam { ("Inflated beam", "deflection mm") } else { ("Muscle", "value") };
-    let known = match (beam, notes.is_empty()) {
-        (true, _) if !calibrate => Known::Predicted,
-        (false, true) => Known::Assumed,
-        _ => Known::Calibrated,
+    let known = match (rows.iter().any(|row| row.fitted), beam) {
+        (true, _) => Known::Calibrated,
+        (false, true) => Known::Predicted,
+        (false, false) => Known::Assumed,
     };
+    let top_pa = bench.rows.iter().filter_map(|row| row.get("p_act")).fold(0.0, f64::max);
+    if let Some(given) = given.filter(|given| top_pa > given.p_max_pa) {
+        let (top, most) = (wording::value(1e-3 * top_pa), wording::value(1e-3 * given.p_max_pa));
+        notes.push(format!("the table goes to {top} kPa, above the scenario's max_pressure_kpa = {most}"));
+    }
+    if calibrate && !rows.iter().any(|row| row.fitted) && notes.is_empty() {
+        notes.push(NOTHING_FREE.into());
+    }
     if beam && !calibrate && scenario.wall.stiffness_n_per_m.is_none() {
         notes.push(NO_WALL.into());
     }
@@ -211,34 +224,51 @@ impl Trial {
         self.specimen(row).or_else(|[problem, help]| refuse(bench, problem, help))
     }
 
-    /// E t that gives a beam the deflection of a row; it falls with E t. In words.
-    fn calibrate_wall(&mut self, row: &BenchRow, beam: &Scenario) -> String {
+    /// E t that gives a beam the deflection of a row; it falls with E t. Whether there is one, in words too.
+    fn calibrate_wall(&mut self, row: &BenchRow, beam: &Scenario) -> (bool, String) {
         let off = |e: f64| {
             let mut beam = beam.clone();
             beam.wall.stiffness_n_per_m = Some(e);
             deflection_m(&beam, row.value("load")).map_or(f64::INFINITY, |v| v - row.value("deflection"))
         };
         let at = format!("{:.0} kPa, {:.0} mm", 1e-3 * beam.p_body_pa, 1e3 * beam.radius_m);
-        let (mut soft, mut stiff) = (1e3_f64, 1e8_f64);
-        if !(off(soft) > 0.0 && off(stiff) < 0.0) {
-            self.scenario.wall.stiffness_n_per_m = None;
-            return format!("{at}: no E t between 1 kN/m and 100 MN/m gives the first load's deflection");
+        self.scenario.wall.stiffness_n_per_m = met([1e3, 1e8], off);
+        match self.scenario.wall.stiffness_n_per_m {
+            Some(e) => (true, format!("{at}: E t = {} kN/m, calibrated on the first load", wording::value(1e-3 * e))),
+            None => (false, format!("{at}: no E t between 1 kN/m and 100 MN/m gives the first load's deflection")),
         }
-        for _ in 0..50 {
-            let middle = (soft * stiff).sqrt();
-            *(if off(middle) > 0.0 { &mut soft } else { &mut stiff }) = middle;
-        }
-        let wall = (soft * stiff).sqrt();
-        self.scenario.wall.stiffness_n_per_m = Some(wall);
-        format!("{at}: E t = {:.0} kN/m, calibrated on the first load", 1e-3 * wall)
     }
 
-    /// Angle at rest of the yarns of an ideal braid that shortens so far without load; not a number above 1 − 1/√3. In words.
-    fn calibrate_angle(&mut self, row: &BenchRow) -> String {
-        let bias_rad = (1.0 / (3.0_f64.sqrt() * (1.0 - row.value("contraction")))).acos();
-        self.bias_rad = Some(bias_rad);
-        format!("yarns at {:.1}°, calibrated on the largest contraction", bias_rad.to_degrees())
+    /// Angle at rest of the yarns with which the model shortens so far without load; contraction falls with it.
+    fn calibrate_angle(&mut self, row: &BenchRow) -> (bool, String) {
+        let off = |bias_rad: f64| {
+            let specimen = Trial { bias_rad: Some(bias_rad), ..self.clone() }.specimen(row);
+            let model = specimen.ok().and_then(|specimen| modelled(row, &specimen));
+            model.map_or(f64::NAN, |model| model - row.value("contraction"))
+        };
+        self.bias_rad = met(YARNS_DEG.map(f64::to_radians), off);
+        match self.bias_rad {
+            Some(rad) => (true, format!("yarns at {:.1}°, calibrated on the largest contraction", rad.to_degrees())),
+            None => {
+                (false, format!("no yarns from {}° to {}° give the largest contraction", YARNS_DEG[0], YARNS_DEG[1]))
+            }
+        }
     }
+}
+
+/// Angles of yarns between which a muscle shortens.
+const YARNS_DEG: [f64; 2] = [15.0, 54.7];
+
+/// Where what falls between two places passes 0, by halves of the ratio.
+fn met([mut low, mut high]: [f64; 2], off: impl Fn(f64) -> f64) -> Option<f64> {
+    if !(off(low) > 0.0 && off(high) < 0.0) {
+        return None;
+    }
+    for _ in 0..50 {
+        let middle = (low * high).sqrt();
+        *(if off(middle) > 0.0 { &mut low } else { &mut high }) = middle;
+    }
+    Some((low * high).sqrt())
 }
 
 /// The row on which the number of a specimen is calibrated: the least load of a beam, the largest contraction of a free muscle.
@@ -253,6 +283,10 @@ fn calibrated_on(group: &[BenchRow]) -> Option<&BenchRow> {
 /// Flat width of a free muscle of unknown size \[m\].
 pub(crate) const ANY_WIDTH_M: f64 = 0.02;
 const LONG: f64 = 1e6;
+
+/// Why a calibration changed nothing.
+const NOTHING_FREE: &str =
+    "nothing to calibrate: a beam needs a row with load and deflection, a muscle one with force 0 and no bias_deg";
 
 /// What a beam without a fabric is compared as.
 const NO_WALL: &str = "the scenario has no wall_stiffness_n_per_m, so the wall does not stretch and deflections are the least possible; \

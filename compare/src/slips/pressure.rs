@@ -28,8 +28,8 @@ pub enum PressureSlip {
     Unit(PressureColumn, WrongUnit),
     /// The columns of body and actuator pressure are exchanged.
     Exchanged,
-    /// A sensor of absolute pressure, in a room of this pressure \[Pa\].
-    Absolute(PressureColumn, f64),
+    /// Sensors of absolute pressure of actuator, body or both, in rooms of these pressures \[Pa\].
+    Absolute([Option<f64>; 2]),
     /// Two supply channels are exchanged, given by their numbers.
     Channels([usize; 2]),
     /// Two axes are exchanged, in space.
@@ -43,8 +43,8 @@ pub enum PressureSlip {
 pub struct WrongUnit {
     /// What the numbers have to be multiplied by.
     pub factor: f64,
-    /// The actual unit and the unit of the column's name, each in words and as the suffix of a column's name.
-    units: [[&'static str; 2]; 2],
+    /// The actual unit and the unit of the column's name, each as symbol, in words and as the suffix of a column's name.
+    units: [[&'static str; 3]; 2],
 }
 
 /// Units of pressure gauges and loggers: their symbol, in words, and as the suffix of a column's name.
@@ -52,10 +52,10 @@ const UNITS: [[&str; 3]; 4] =
     [["psi", "psi", "psi"], ["mbar", "mbar", "mbar"], ["bar", "bar", "bar"], ["inH2O", "inches of water", "inh2o"]];
 
 fn wrong_units() -> impl Iterator<Item = WrongUnit> {
-    UNITS.into_iter().flat_map(|[symbol, words, suffix]| {
-        let known = units_of(Dimension::PRESSURE).find(|unit| unit.symbol == symbol);
+    UNITS.into_iter().flat_map(|own| {
+        let known = units_of(Dimension::PRESSURE).find(|unit| unit.symbol == own[0]);
         let factor = known.map_or(f64::NAN, |unit| 1e-3 * unit.factor());
-        let (own, kpa) = ([words, suffix], ["kPa", "kpa"]);
+        let kpa = ["kPa", "kPa", "kpa"];
         [WrongUnit { factor, units: [own, kpa] }, WrongUnit { factor: 1.0 / factor, units: [kpa, own] }]
     })
 }
@@ -111,13 +111,16 @@ impl PressureColumn {
 impl PressureSlip {
     /// Every slip that data may have of a robot whose body has a known pressure \[Pa\].
     pub fn all(dataset: &Dataset, body_pa: f64) -> Vec<PressureSlip> {
-        let units = COLUMNS.iter().flat_map(|column| wrong_units().map(|unit| PressureSlip::Unit(*column, unit)));
-        let absolute = COLUMNS.iter().filter_map(|column| {
+        let units = COLUMNS.iter().zip(dataset.pressure_units).flat_map(|(column, named)| {
+            let possible = wrong_units().filter(move |unit| unit.units[1][0] == named);
+            possible.map(|unit| PressureSlip::Unit(*column, unit))
+        });
+        let rooms = COLUMNS.map(|column| {
             let lowest = dataset.holds.iter().map(|hold| column.lowest(hold)).fold(f64::INFINITY, f64::min);
             // An actuator is vented now and then, a body hardly ever.
-            let room_pa = if *column == PressureColumn::Body { lowest - body_pa } else { lowest };
-            is_a_room(room_pa).then_some(PressureSlip::Absolute(*column, room_pa))
+            Some(if column == PressureColumn::Body { lowest - body_pa } else { lowest }).filter(|pa| is_a_room(*pa))
         });
+        let absolute = rooms.iter().any(Option::is_some).then_some(PressureSlip::Absolute(rooms));
         let exchanged = (dataset.more_channels() == 0).then_some(PressureSlip::Exchanged);
         let channels = pairs(dataset.more_channels() + 1).map(PressureSlip::Channels);
         let axes = if dataset.has_z() { dataset.axes } else { 0 };
@@ -135,7 +138,7 @@ impl PressureSlip {
         if let PressureSlip::Unit(column, _) = self {
             return column.top(dataset) > scenario.p_max_pa && column.top(&self.undone(dataset)) <= scenario.p_max_pa;
         }
-        by_numbers(dataset).iter().any(|seen| std::mem::discriminant(seen) == std::mem::discriminant(self))
+        by_numbers(dataset).is_some_and(|seen| std::mem::discriminant(&seen) == std::mem::discriminant(self))
     }
 
     /// The data with the slip undone.
@@ -150,9 +153,10 @@ impl PressureSlip {
             PressureSlip::Exchanged => {
                 holds.iter_mut().for_each(|hold| std::mem::swap(&mut hold.p_act_pa, &mut hold.p_body_pa));
             }
-            PressureSlip::Absolute(column, room_pa) => {
-                holds.iter_mut().for_each(|hold| column.change(hold, |pa| pa - room_pa));
-            }
+            PressureSlip::Absolute(rooms) => holds.iter_mut().for_each(|hold| {
+                let columns = COLUMNS.iter().zip(rooms);
+                columns.for_each(|(column, room)| column.change(hold, |pa| pa - room.unwrap_or_default()));
+            }),
             PressureSlip::Channels([one, other]) => holds.iter_mut().for_each(|hold| {
                 let mut all: Vec<f64> = hold.channels_pa().collect();
                 all.swap(*one, *other);
@@ -167,13 +171,13 @@ impl PressureSlip {
 
     /// Whether it leaves the actuator's pressures as they are.
     pub fn is_of_body(&self) -> bool {
-        matches!(self, PressureSlip::Unit(PressureColumn::Body, _) | PressureSlip::Absolute(PressureColumn::Body, _))
+        matches!(self, PressureSlip::Unit(PressureColumn::Body, _) | PressureSlip::Absolute([None, _]))
     }
 
     /// How the columns look, how they were corrected to try this slip, and how to correct the table if they are as suspected.
     pub fn words(&self) -> [String; 3] {
         match self {
-            PressureSlip::Unit(column, WrongUnit { factor, units: [[right, suffix], [wrong, own]] }) => {
+            PressureSlip::Unit(column, WrongUnit { factor, units: [[_, right, suffix], [_, wrong, own]] }) => {
                 let [word, name] = column.words();
                 [
                     format!("the {word} pressures look as if they were {right} under a name of {wrong}"),
@@ -182,10 +186,17 @@ impl PressureSlip {
                 ]
             }
             PressureSlip::Exchanged => exchanged("the pressures of body and actuator", ["p_act", "p_body"]),
-            PressureSlip::Absolute(column, room_pa) => {
-                let ([word, name], kpa) = (column.words(), short(1e-3 * room_pa));
-                let help = format!("if they are, subtract {kpa} kPa from the column {name}");
-                [format!("the {word} pressures look absolute"), format!("{kpa} kPa subtracted"), help]
+            PressureSlip::Absolute(rooms) => {
+                let own = COLUMNS.iter().zip(rooms).filter_map(|(column, room)| Some((column.words(), (*room)?)));
+                let parts: Vec<_> =
+                    own.map(|([word, name], pa)| [word.into(), name.into(), short(1e-3 * pa)]).collect();
+                let all = |of: &dyn Fn(&[String; 3]) -> String| parts.iter().map(of).collect::<Vec<_>>().join(" and ");
+                let kpa = all(&|[_, name, kpa]| format!("{kpa} kPa from the column {name}"));
+                [
+                    format!("the {} pressures look absolute", all(&|[word, ..]| word.clone())),
+                    format!("{} kPa subtracted", all(&|[.., kpa]| kpa.clone())),
+                    format!("if they are, subtract {kpa}"),
+                ]
             }
             PressureSlip::Channels(pair) => {
                 let name = |channel| if channel == 0 { "p_act".into() } else { format!("p_act_{channel}") };
@@ -214,19 +225,19 @@ fn exchanged(what: &str, [one, other]: [&str; 2]) -> [String; 3] {
 
 /// What the numbers alone look like: a column that begins at the pressure of a room and never goes below it, an actuator that
 /// never has more than its body.
-pub fn by_numbers(dataset: &Dataset) -> Vec<PressureSlip> {
-    let Some(first) = dataset.holds.first() else { return Vec::new() };
-    let absolute = |column: &PressureColumn| {
+pub fn by_numbers(dataset: &Dataset) -> Option<PressureSlip> {
+    let first = dataset.holds.first()?;
+    let rooms = COLUMNS.map(|column| {
         let begins = column.lowest(first);
         let above = dataset.holds.iter().all(|hold| policy::is_not_below(column.lowest(hold), begins));
-        let room_pa = if *column == PressureColumn::Body { begins.min(ROOM_PA) } else { begins };
-        (is_a_room(begins) && above).then_some(PressureSlip::Absolute(*column, room_pa))
-    };
+        let room_pa = if column == PressureColumn::Body { begins.min(ROOM_PA) } else { begins };
+        (is_a_room(begins) && above).then_some(room_pa)
+    });
     let [act, body] = COLUMNS.map(|column| column.top(dataset));
-    let found: Vec<PressureSlip> = COLUMNS.iter().filter_map(absolute).collect();
-    match found.is_empty() && dataset.more_channels() == 0 && policy::is_never_above(act, body) {
-        true => vec![PressureSlip::Exchanged],
-        false => found,
+    let is_exchanged = dataset.more_channels() == 0 && policy::is_never_above(act, body);
+    match rooms == [None; 2] {
+        true => is_exchanged.then_some(PressureSlip::Exchanged),
+        false => Some(PressureSlip::Absolute(rooms)),
     }
 }
 
@@ -234,9 +245,11 @@ pub fn by_numbers(dataset: &Dataset) -> Vec<PressureSlip> {
 pub fn pressure_words(dataset: &Dataset) -> Vec<String> {
     let told = |slip: &PressureSlip| {
         let why = match slip {
-            PressureSlip::Absolute(column, _) => {
-                let begins = column.lowest(&dataset.holds[0]);
-                format!("they begin at {} kPa, the air of a room, and are never below it", short(1e-3 * begins))
+            PressureSlip::Absolute(rooms) => {
+                let begins = COLUMNS.iter().zip(rooms).filter(|(_, room)| room.is_some());
+                let kpa: Vec<String> =
+                    begins.map(|(column, _)| short(1e-3 * column.lowest(&dataset.holds[0]))).collect();
+                format!("they begin at {} kPa, the air of a room, and are never below it", kpa.join(" and "))
             }
             _ => "the actuator never has more than the body".into(),
         };
@@ -294,7 +307,7 @@ mod tests {
     #[test]
     fn right_pressures_look_like_no_slip() {
         for name in SETS {
-            assert!(by_numbers(&embedded(name)).is_empty(), "{name}");
+            assert_eq!(by_numbers(&embedded(name)), None, "{name}");
         }
     }
 
@@ -302,15 +315,33 @@ mod tests {
     fn exchanged_and_absolute_pressures_are_seen_in_the_numbers_alone() {
         for name in SETS {
             let right = embedded(name);
-            assert_eq!(by_numbers(&PressureSlip::Exchanged.undone(&right)), [PressureSlip::Exchanged], "{name}");
+            assert_eq!(by_numbers(&PressureSlip::Exchanged.undone(&right)), Some(PressureSlip::Exchanged), "{name}");
             for column in COLUMNS {
-                let absolute = PressureSlip::Absolute(column, -ROOM_PA).undone(&right);
-                let [PressureSlip::Absolute(found, room_pa)] = by_numbers(&absolute)[..] else { panic!("{name}") };
-                assert!(found == column && (room_pa - ROOM_PA).abs() < 1.0, "{name} {room_pa}");
+                let raised = COLUMNS.map(|own| (own == column).then_some(-ROOM_PA));
+                let absolute = PressureSlip::Absolute(raised).undone(&right);
+                let Some(PressureSlip::Absolute(rooms)) = by_numbers(&absolute) else { panic!("{name}") };
+                assert!(rooms.iter().zip(raised).all(|(found, made)| found.is_some() == made.is_some()), "{name}");
+                assert!(rooms.iter().flatten().all(|pa| (pa - ROOM_PA).abs() < 1.0), "{name} {rooms:?}");
                 let words = pressure_words(&absolute).concat();
                 assert!(words.contains("subtract 10") && words.contains(column.words()[1]), "{words}");
             }
+            let both = PressureSlip::Absolute([Some(-ROOM_PA); 2]).undone(&right);
+            let words = pressure_words(&both).concat();
+            assert!(words.contains("from the column p_act and 101.3 kPa from the column p_body"), "{words}");
         }
+    }
+
+    #[test]
+    fn a_remedy_renames_columns_that_the_table_has() {
+        let kpa = embedded("synthetic-epam");
+        let mbar = Dataset { pressure_units: ["mbar", "kPa"], ..kpa.clone() };
+        let remedies = |data: &Dataset| -> String {
+            let units = PressureSlip::all(data, 2e3).into_iter().filter(|slip| matches!(slip, PressureSlip::Unit(..)));
+            units.map(|slip| slip.words()[2].clone()).collect()
+        };
+        assert!(!remedies(&kpa).contains("in place of p_act_mbar"), "{}", remedies(&kpa));
+        let of_mbar = remedies(&mbar);
+        assert!(of_mbar.contains("p_act_kpa in place of p_act_mbar") && !of_mbar.contains("place of p_act_kpa"));
     }
 
     #[test]

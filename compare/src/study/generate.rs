@@ -127,6 +127,7 @@ pub fn generate(scenario: &Scenario, name: &str, generator: &Generator) -> Resul
         coordinates_m,
         gauge_pa: generator.gauge.then_some(gauge_pa),
         lost: data::Lost::default(),
+        pressure_units: data::IN_KPA,
         told: Vec::new(),
     })
 }

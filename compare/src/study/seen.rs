@@ -65,6 +65,7 @@ pub fn seen(runs: &[EngineRun], name: &str, generator: &Generator) -> Result<Dat
         coordinates_m,
         gauge_pa: None,
         lost: data::Lost::default(),
+        pressure_units: data::IN_KPA,
         told: Vec::new(),
     })
 }

@@ -81,6 +81,7 @@ impl SyntheticRobot {
             axes: 2,
             gauge_pa: None,
             lost: data::Lost::default(),
+            pressure_units: data::IN_KPA,
             told: Vec::new(),
         }
     }

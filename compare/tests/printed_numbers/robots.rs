@@ -104,6 +104,7 @@ pub(crate) fn exact(name: &str, holds: &[Hold], truth_m: &[f64]) -> Dataset {
         axes: 2,
         gauge_pa: None,
         lost: Lost::default(),
+        pressure_units: data::IN_KPA,
         told: Vec::new(),
     }
 }

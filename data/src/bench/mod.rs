@@ -126,6 +126,10 @@ mod tests {
         refused(&format!("{head},deflection_sd_mm,n\n20,1,1,0.1,1\n"), &["of 1 tests"]);
         refused("p_body,load_n,deflection_mm\n20,1,1\n", &["p_body has no unit", "p_body_kpa"]);
         refused(&format!("# radius_mm: wide\n{head}\n20,1,1\n"), &["a.csv:1", "wide"]);
+        refused(
+            &format!("# raduis_mm: 80\n{head}\n20,1,1\n"),
+            &["a.csv:1", "unknown raduis_mm", "did you mean # radius_mm: 80?"],
+        );
         refused("p_act_kpa,contraction_ratio,force_n\n620,5,300\n", &["contraction is 500 %", "contraction_pct"]);
         refused("# areal_mass_g_m2: 155\noverhang_mm,droop_deg\n75,0\n", &["droops by 0", "41.5"]);
         refused("overhang_mm,droop_deg\n75,41\n", &["areal_mass_g_m2 is missing", "# areal_mass_g_m2: 155"]);

@@ -40,7 +40,8 @@ pub(super) const ENTRY: Effect = Effect {
                 width_m: site.shape.width_m,
                 sealed: site.actuator.map_or(0.0, |actuator| (actuator.edge_restraint)(&site.shape)),
                 inner: site.inner_share,
-                wall_m: site.drawn_in(site.strip_m).map_or(0.0, |flat| 0.5 * flat.radius_m * flat.cos),
+                // A weld wider than its circle has walls that do not pull its sides apart.
+                wall_m: site.drawn_in(site.strip_m).map_or(0.0, |flat| (0.5 * flat.by_chord_m()).max(0.0)),
             };
             site.sheet_nm = values[0];
             site.act(term, SideEffects::SHIFT);

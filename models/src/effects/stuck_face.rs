@@ -15,7 +15,7 @@
 //! The face is a plate under tension, clamped at both ends of the lens: where it is taut it folds there as the elastica does, √(D_i T) in
 //! place of √(D T), and without tension its energy is linear in T. At both sides its round zone, ½π a wide, ⅔ a₀ in the mean, crimps with
 //! the weld. Bonded plies of thickness t have D_i = ½ E t³, free ones a fifth of that or less. The clamped plate is exact for small θ.
-//! Left out: the wall next to the face.
+//! Up to D there is no effect: the face is one sheet at least. Left out: the wall next to the face.
 
 use super::crimped_sides::{FOLDED, FOUNDATION};
 use super::entry::*;
@@ -37,10 +37,10 @@ pub(super) const ENTRY: Effect = Effect {
         .means("bending stiffness of the inner face with the wall")],
     needs: Needs::Family(Family::Pouch),
     add: |values, assembly| {
-        if values[0] == 0.0 {
-            return;
-        }
-        let outside = |site: &&mut Site| site.actuator.is_some_and(|actuator| !actuator.in_wall(&site.shape));
+        let outside = |site: &&mut Site| {
+            // One sheet is in `fold_energy` already.
+            values[0] > site.sheet_nm && site.actuator.is_some_and(|actuator| !actuator.in_wall(&site.shape))
+        };
         for site in assembly.active_sites(Family::Pouch).filter(outside) {
             let sealed = site.actuator.map_or(0.0, |actuator| (actuator.edge_restraint)(&site.shape));
             let term = StuckFace {

@@ -14,12 +14,14 @@ impl Linear {
     /// pressures. Every joint needs K > 0.
     pub fn mjcf(&self, about: &Surroundings) -> String {
         let links = self.links(about);
-        let [gx, gy] = about.gravity_m_s2;
+        let [gx, gy] = about.gravity_m_s2.map(|g| g + 0.0);
         let r = about.radius_m;
         let mut bodies = String::new();
         for (i, (joint, link)) in self.joints.iter().zip(&links).enumerate() {
             let (number, [x, y], [cx, cy]) = (i + 1, link.at_m, link.centre_m);
             let (k, damping) = (joint.stiffness_nm, link.damping_nms);
+            // The last link ends at the tip, in the middle between its hinge and the next one's place.
+            let drawn_m = if number == links.len() { cx } else { 2.0 * cx };
             let (armature, rest) = (k * (STEP_S / SHARE).powi(2), joint.offset_nm / k);
             bodies += &format!(
                 "<body name=\"link_{number}\" pos=\"{x} {y} 0\">\n\
@@ -27,9 +29,7 @@ impl Linear {
                  <joint name=\"joint_{number}\" axis=\"0 0 1\" stiffness=\"{k}\" springref=\"{rest}\" damping=\"{damping}\" \
                  armature=\"{armature}\"/>\n\
                  <geom type=\"capsule\" fromto=\"0 {cy} 0 {} {cy} 0\" size=\"{r}\" contype=\"0\" conaffinity=\"0\"/>\n",
-                link.mass_kg,
-                2.0 * cx,
-                link.inertia_kg_m2,
+                link.mass_kg, drawn_m, link.inertia_kg_m2,
             );
         }
         let end = links.last().map_or([0.0; 2], |link| link.centre_m);

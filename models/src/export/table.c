@@ -91,12 +91,14 @@ int NAME_slope(IBR_REAL p_pa, NAME_tip_t *per_pa)
     place_t at;
     const int outside = place(p_pa, &at);
     const IBR_REAL per = (READ(edges[at.piece + 1]) - READ(edges[at.piece])) * at.u * (high_pa - open_pa);
+    /* A flat actuator has none. */
+    const IBR_REAL rate = at.u > 0 ? 1 / per : 0;
     IBR_REAL slope[3];
     for (int i = 0; i < 3; i++)
         value(at.piece, i, at.t, &slope[i]);
-    per_pa->x_m = slope[0] / per;
-    per_pa->y_m = slope[1] / per;
-    per_pa->angle_rad = slope[2] / per;
+    per_pa->x_m = slope[0] * rate;
+    per_pa->y_m = slope[1] * rate;
+    per_pa->angle_rad = slope[2] * rate;
     return outside;
 }
 

@@ -39,7 +39,7 @@ typedef struct {
 
 /* Tip at a pressure in Pa. */
 int NAME_tip(IBR_REAL p_pa, NAME_tip_t *tip);
-/* Its slope, per Pa; infinite or not a number where the actuator begins to open. */
+/* Its slope, per Pa; 0 where the actuator is flat, large where it begins to open. */
 int NAME_slope(IBR_REAL p_pa, NAME_tip_t *per_pa);
 /* Markers x, y, x, y ... in m at a pressure in Pa; 2 * UPPER_MARKERS numbers. */
 int NAME_markers(IBR_REAL p_pa, IBR_REAL *xy_m);

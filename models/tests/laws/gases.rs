@@ -1,7 +1,7 @@
 //! Volumes are the slopes of the potential by the pressures, and obey Maxwell's relations.
 
 use crate::support::*;
-use models::{BODY_GAS, GASES, Loads, Model, Scenario};
+use models::{BODY_GAS, GASES, GasVolumes, Loads, Model, Scenario};
 use std::f64::consts::{LN_2, PI};
 
 /// Every actuator bare, with everything, as shipped, and under loads; and robots in space.
@@ -129,4 +129,23 @@ fn the_body_holds_the_gas_under_its_roofs_also_below_empty_pouches() {
     let largest_m2 = 0.5 * radius * (arc_m + 2.0 * radius * (2.0 * gamma).sin());
     assert!((body_m3(0.0) / (0.36 * largest_m2) - 1.0).abs() < 2e-3, "{} {}", body_m3(0.0), 0.36 * largest_m2);
     assert!((body_m3(1.0) / body_m3(0.0) - 1.0).abs() < 1e-6);
+}
+
+/// Where a fold follows a tension that vanishes, a law has no volume; elsewhere no gas shrinks as its own pressure rises.
+#[test]
+fn no_gas_shrinks_as_its_pressure_rises() {
+    for robot in ["spam", "cpam", "epam", "fpam", "epam-two-strips", "epam-helix"] {
+        let model = Model::new(&Scenario::parse(models::shipped(robot).unwrap()).unwrap());
+        let mut known = 0;
+        for i in 0..200 {
+            let loads = Loads::uniform(2e3, 50.0 * f64::from(i));
+            let Ok(GasVolumes { m3, per_pa }) = model.volumes(&loads, &mut model.prediction()) else { continue };
+            for gas in [0, BODY_GAS] {
+                assert!(m3[gas].is_nan() || m3[gas] >= 0.0, "{robot} {i}: {m3:?}");
+                assert!(per_pa[gas][gas].is_nan() || per_pa[gas][gas] >= -1e-12, "{robot} {i}: {per_pa:?}");
+            }
+            known += usize::from(m3[0].is_finite());
+        }
+        assert!(known > 150, "{robot}: volumes at {known} of 200 pressures");
+    }
 }

@@ -223,6 +223,9 @@ fn told(
         training_mm: case.error_mm(&case.prediction(&case.base)),
         heldout_mm: held_out.pressure_mm(&case.base),
     });
+    let adds = form.moment.starts_with('-') && own.first().is_some_and(|number| number.value < 0.0);
+    let reverse =
+        if adds { "; here it is negative and adds to the bend, so the scenario may have too much of it" } else { "" };
     Ok(LearnedLaw {
         name: name.into(),
         words: form.words.into(),
@@ -235,7 +238,7 @@ fn told(
         heldout_after_mm: held_out.pressure_mm(fit),
         heldout_run_after_mm: held_out.run_mm(fit),
         bending_nm2: case.bendings(fit),
-        usual: form.usual.words.into(),
+        usual: format!("{}{reverse}", form.usual.words),
         check: form.usual.check.into(),
         tried: Vec::new(),
         toml: form.toml(name, &case.first().scenario),

@@ -35,8 +35,16 @@ impl LearnedLaw {
         let (before, after) = (mm(self.heldout_before_mm), mm(self.heldout_after_mm));
         let line = self.line.as_ref().map_or(String::new(), |line| {
             let side = if line.value_mm < 0.0 { "nearer to" } else { "further from" };
-            let alone = mm(line.heldout_mm);
-            format!("; of that the line of the markers, {:.1} mm {side} the taut side than in the scenario, brings it to {alone} mm", line.value_mm.abs())
+            let what = format!(
+                "the line of the markers, {:.1} mm {side} the taut side than in the scenario",
+                line.value_mm.abs()
+            );
+            match line.heldout_mm.zip(self.heldout_before_mm) {
+                Some((alone, before)) if policy::falls(alone, before) => {
+                    format!("; of that {what}, brings it to {alone:.2} mm")
+                }
+                _ => format!("; {what}, was fitted along and lowers nothing alone"),
+            }
         });
         vec![
             format!("A law learned from the missing moment, {}: {}.", self.words, self.formula),

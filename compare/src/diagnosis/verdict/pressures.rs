@@ -94,7 +94,7 @@ impl PressureCheck<'_> {
     /// A slip that the numbers alone prove, whatever a model leaves.
     fn proved(&self, case: &DiagnosisCase) -> Option<PressureSlipFound> {
         let mut seen = self.sources.iter().map(|source| by_numbers(&source.dataset)).enumerate();
-        let (of, slip) = seen.find_map(|(of, seen)| Some((of, *seen.first()?)))?;
+        let (of, slip) = seen.find_map(|(of, seen)| Some((of, seen?)))?;
         let before_mm = Some(case.error_in_all_mm(&case.base));
         // Bar under a name of kPa looks exchanged too, and the model decides which.
         let all = self.undone_slips(false);
