@@ -75,7 +75,7 @@ impl Target {
             }
             _ => {
                 let (least, most) = if let Reach::Beyond { least, most } = found { (*least, *most) } else { NOWHERE };
-                // What is zero in print has no sign.
+                // A zero in print has no sign.
                 let shown = |v: f64| if (v * factor).abs() < 5e-5 { 0.0 } else { v * factor };
                 let (lowest, highest) = (shown(least), shown(most));
                 Unsolved::OutOfReach { what, target, lowest, highest, unit, p_max_kpa: p_max_pa / 1e3 }

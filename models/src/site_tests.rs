@@ -1,5 +1,19 @@
 use super::*;
 use crate::actuators::ACTUATORS;
+use crate::term::{Account, LedgerLine};
+
+struct NoValue;
+
+impl Term for NoValue {
+    fn line(&self) -> LedgerLine {
+        LedgerLine::new("bending", Account::Wall)
+    }
+
+    fn add(&self, _: &Pose, force: &mut [f64]) -> f64 {
+        force[actuator_q::COORDINATE] = f64::NAN;
+        f64::NAN
+    }
+}
 
 #[test]
 fn the_start_value_of_a_place_without_effects_is_its_equilibrium_also_with_a_growing_arm() {
@@ -21,7 +35,7 @@ fn the_start_value_of_a_place_without_effects_is_its_equilibrium_also_with_a_gro
                 section: None,
             };
             let body = BodyPressure { radius_m: 0.04, hinge_curvature: 1e-4, share: 1.0 };
-            let site = Site::new(0.04, body, WallBending { stiffness }, linkage, Some(actuator), shape, 0);
+            let mut site = Site::new(0.04, body, WallBending { stiffness }, linkage, Some(actuator), shape, 0);
             for p_act_pa in [5e3, 2e4, 1e5] {
                 let loads = SiteLoads { p_body_pa: 2e3, p_act_pa, moment: 0.01, s_m: 0.0, dt_s: 0.0, stamp: 0 };
                 let start = site.start(actuator, &loads, &[]);
@@ -30,6 +44,8 @@ fn the_start_value_of_a_place_without_effects_is_its_equilibrium_also_with_a_gro
                 assert!((imbalance(start.x) / slope).abs() < 1e-14, "{} {stiffness} {arm_growth}", actuator.name);
                 assert!((start.slope / slope - 1.0).abs() < 1e-7, "{} {stiffness} {arm_growth}", actuator.name);
             }
+            site.act(NoValue, SideEffects::SHIFT);
+            assert_eq!(site.without_value(&SiteLoads::new(2e3, 2e4)), Some("bending"));
         }
     }
 }

@@ -44,8 +44,8 @@ pub fn bench(spec: &str) -> Result<Option<Bench>> {
         let Some(text) = read_whole(path, MOST_DATA).ok().and_then(|bytes| String::from_utf8(bytes).ok()) else {
             return Ok(None);
         };
-        let beside = path.with_file_name("scenario.toml");
-        let scenario = std::fs::read_to_string(&beside).ok().map(|text| (beside.display().to_string(), text));
+        let place = path.with_file_name("scenario.toml");
+        let scenario = std::fs::read_to_string(&place).ok().map(|text| (place.display().to_string(), text));
         return read::parse(KINDS, spec, &text).map(|found| found.map(|bench| Bench { scenario, ..bench }));
     }
     for kind in KINDS {

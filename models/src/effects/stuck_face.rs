@@ -15,7 +15,7 @@
 //! The face is a plate under tension, clamped at both ends of the lens: where it is taut it folds there as the elastica does, √(D_i T) in
 //! place of √(D T), and without tension its energy is linear in T. At both sides its round zone, ½π a wide, ⅔ a₀ in the mean, crimps with
 //! the weld. Bonded plies of thickness t have D_i = ½ E t³, free ones a fifth of that or less. The clamped plate is exact for small θ.
-//! Up to D there is no effect: the face is one sheet at least. Left out: the wall next to the face.
+//! Up to D it has no effect: the face is one sheet at least. Left out: the wall next to the face.
 
 use super::crimped_sides::{FOLDED, FOUNDATION};
 use super::entry::*;

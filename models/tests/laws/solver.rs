@@ -19,17 +19,6 @@ fn gauge_pressures_from_nothing_to_a_megapascal_are_pressures() {
     assert!(refused(Loads::uniform(2e3, -1.0)) && refused(Loads::uniform(2e3, f64::NAN)));
 }
 
-#[test]
-fn a_law_without_a_value_at_the_geometry_is_named() {
-    // Drawn in by its pouches this wall is less than half a circle, and the arcs of the side folds have no radius.
-    let scenario = Scenario { radius_m: 0.02, ..Scenario::parse(models::shipped("epam").unwrap()).unwrap() };
-    let model = Model::new(&scenario);
-    let error = model.predict(&Loads::uniform(2e3, 5e3), &mut model.prediction()).unwrap_err();
-    assert!(matches!(error, Unsolved::NoValue { law: "fold_energy", .. }), "{error}");
-    let text = error.to_string();
-    assert!(text.contains("s = 0.0 mm") && text.contains("body.radius_mm") && !text.contains("load"), "{text}");
-}
-
 /// Predicts at every pressure; returns how many had no equilibrium.
 pub(crate) fn sweep(name: &str, scenario: &Scenario) -> usize {
     let model = Model::new(scenario);
