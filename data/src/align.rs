@@ -209,8 +209,8 @@ fn absent_marker(recorder: &Recorder, run: usize, marker: usize) -> DataError {
     let seen = recorder.streams.iter().find(|stream| stream.marker == marker);
     let (other, line) = seen.map_or(("", 0), |seen| (runs[seen.run].as_str(), seen.first_line));
     let message = format!("marker {name} appears in run {other} but not in run {}", runs[run]);
-    let help = "every run needs the same markers: correct the label if it is misspelt, add the marker to that run, \
-                or delete it from all runs";
+    let help = "every run needs the same markers: correct the label if it is misspelt, add a row with empty x and y where the \
+                camera never saw it, or delete the marker from all runs";
     recorder.fault(message, help, line).in_column("marker", Some(name))
 }
 

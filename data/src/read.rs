@@ -94,9 +94,13 @@ pub fn parse_markers(file: &str, reader: &mut dyn Read, options: ReadOptions, pr
             continue;
         }
         match cells.placeholder() {
-            _ if cells.is_lost() => recorder.lost_frames += 1,
+            _ if cells.is_lost() => {
+                recorder.lost_frames += 1;
+                recorder.note_lost(cells);
+            }
             Some(words) if !sits_at_base(cells, options.about) => {
                 recorder.placeholders.note(words, 1, line.number);
+                recorder.note_lost(cells);
             }
             _ => recorder.add(cells)?,
         }
@@ -105,6 +109,7 @@ pub fn parse_markers(file: &str, reader: &mut dyn Read, options: ReadOptions, pr
         let unseen = recorder.lost_frames + recorder.placeholders.rows();
         return Err(no_rows(file, &kind, unseen));
     }
+    recorder.add_lost();
     recorder.placeholders.take_out_shared(&mut recorder.streams);
     let mut told = reader.told()?;
     told.extend(recorder.placeholders.told());

@@ -58,15 +58,16 @@ const PLACEHOLDERS: [(f64, &str); 9] = [
 
 const SECONDS: [&str; 4] = ["seconds", "secs", "sec", "s"];
 
-const ROOM_PA: f64 = 1.15e5;
+/// Gauge pressures of a body and absolute ones, up to the room's 115 kPa more: they are read, so that the slips can say what to subtract.
+const BODY_READING: Range = Range { high: Range::BODY_PRESSURE.high + 115.0, ..Range::BODY_PRESSURE };
 
 pub(crate) fn pressure_bounds(quantity: usize) -> &'static Range {
-    if quantity == P_BODY { &Range::BODY_PRESSURE } else { &Range::ACTUATOR_PRESSURE }
+    if quantity == P_BODY { &BODY_READING } else { &Range::ACTUATOR_PRESSURE }
 }
 
 /// Means of holds below this are no noise of a sensor \[Pa\].
 pub(crate) fn lowest_mean_pa(quantity: usize) -> f64 {
-    if quantity == P_BODY { Range::BODY_PRESSURE.low * Range::BODY_PRESSURE.si } else { policy::LOWEST_GAUGE_PA }
+    if quantity == P_BODY { BODY_READING.low * BODY_READING.si } else { policy::LOWEST_GAUGE_PA }
 }
 
 impl RowReader {
@@ -220,6 +221,10 @@ impl<'a> Cells<'a> {
         PLACEHOLDERS.iter().find(|(value, _)| x == *value && y == *value).map(|(_, words)| *words)
     }
 
+    pub(crate) fn run(&self) -> &'a str {
+        label(self.reader.text(RUN))
+    }
+
     pub(crate) fn marker(&self) -> &'a str {
         label(self.reader.text(MARKER))
     }
@@ -324,10 +329,8 @@ impl<'a> Cells<'a> {
     /// Readings below zero are judged by the mean of their hold, but for a gauge, which belongs to no hold.
     fn pressure(&self, quantity: usize) -> Result<f64> {
         let value = self.number(quantity)?;
-        // An absolute pressure of a body is read, so that the slips can say what to subtract.
         let bounds = pressure_bounds(quantity);
-        let room_pa = if quantity == P_BODY { ROOM_PA } else { 0.0 };
-        if value > bounds.high * bounds.si + room_pa {
+        if value > bounds.high * bounds.si {
             let better = if self.sheet.unit(quantity) == "kPa" { "Pa" } else { "kPa" };
             let name = format!("{}_{}", QUANTITIES[quantity].base, better.to_lowercase());
             let why = bounds.mistake(value);

@@ -39,6 +39,8 @@ pub(crate) struct Recorder {
     /// Units that the columns of actuator and body pressure name.
     pub pressure_units: [&'static str; 2],
     pub lost_frames: u64,
+    /// Runs and markers of rows without a position, and the first line of each pair.
+    lost: (Labels, Labels, HashMap<[usize; 2], u64>),
     /// Rows with a placeholder for a position.
     pub placeholders: Placeholders,
     by_pair: HashMap<(usize, usize), usize>,
@@ -81,6 +83,28 @@ impl Recorder {
         }
         self.set_station(marker, &row, cells)?;
         self.add_to_stream([run, marker], &row, cells)
+    }
+
+    /// Takes a row in which a marker was not seen.
+    pub(crate) fn note_lost(&mut self, cells: Cells) {
+        let (runs, markers, lines) = &mut self.lost;
+        if lines.len() < policy::MOST_SERIES {
+            lines.entry([runs.number(cells.run()), markers.number(cells.marker())]).or_insert(cells.line.number);
+        }
+    }
+
+    /// A marker that has rows in a run and no position there was lost in all its holds, if another run saw it.
+    pub(crate) fn add_lost(&mut self) {
+        let (runs, markers, lines) = std::mem::take(&mut self.lost);
+        let mut lines: Vec<([usize; 2], u64)> = lines.into_iter().collect();
+        lines.sort_unstable_by_key(|(_, line)| *line);
+        let place = |known: &Labels, name: &String| known.names.iter().position(|other| other == name);
+        for ([run, marker], first_line) in lines {
+            let pair = place(&self.runs, &runs.names[run]).zip(place(&self.markers, &markers.names[marker]));
+            let Some((run, marker)) = pair.filter(|pair| !self.by_pair.contains_key(pair)) else { continue };
+            let [first_t_s, last_t_s] = [f64::INFINITY, f64::NEG_INFINITY];
+            self.streams.push(Stream { run, marker, first_line, first_t_s, segments: Vec::new(), last_t_s });
+        }
     }
 
     fn add_to_stream(&mut self, [run, marker]: [usize; 2], row: &Observation, cells: Cells) -> Result<()> {

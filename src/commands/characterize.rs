@@ -77,6 +77,7 @@ struct CharacterizeExample {
 fn shown(found: &Characterized) -> String {
     let count = |d: Direction| format!("{} at {}°", found.of(d).count(), d.degrees());
     let directions = directions(&found.specimens).into_iter().map(count).collect::<Vec<_>>().join(", ");
+    let directions = if directions.is_empty() { "none was pulled".into() } else { directions };
     let mut text = format!("Specimens: {directions} ({})\n", found.provenance.word());
     text += &TextTable::of(&found.quantities)
         .words("quantity", |q| &q.name)
@@ -89,7 +90,7 @@ fn shown(found: &Characterized) -> String {
         .right("sd", |q| digits(q.scatter.sd))
         .right("n", |q| q.scatter.n.to_string())
         .text();
-    text += &TextTable::of(&found.specimens)
+    let pulled = TextTable::of(&found.specimens)
         .words("specimen", |s| &s.name)
         .right("direction", |s| format!("{}°", s.direction.degrees()))
         .number("slack [%]", 3, |s| Some(100.0 * s.slack).filter(|slack| *slack > 0.0))
@@ -98,6 +99,7 @@ fn shown(found: &Characterized) -> String {
         .number("largest strain [%]", 1, |s| largest_strain(s).map(|e| 100.0 * e))
         .number("locking [°]", 1, |s| locking_rad(s).map(f64::to_degrees))
         .text();
+    text += if found.specimens.is_empty() { "" } else { &pulled };
     if !found.replays.is_empty() {
         text +=
             "Every test by the law that was made of them: law over test, at the end and rms of the largest stress\n";

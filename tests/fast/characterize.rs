@@ -85,6 +85,9 @@ fn a_cantilever_test_gives_the_bending_stiffness_and_every_test_is_replayed() {
     let value = |key: &str| quantities.iter().find(|q| q["key"] == key).unwrap()["mean"].as_f64().unwrap();
     // c = 75 mm [cos 29.52°/(8 tan 59.04°)]^⅓, D = 0.155 kg/m² g c³.
     assert!((value("bending_length") - 30.2).abs() < 0.1 && (value("bending_stiffness") - 41.9).abs() < 0.5);
+    folder.write("any.csv", "# areal_mass_g_m2: 155\nspecimen,overhang_mm,droop_deg\nA1,75,59.04\n");
+    let alone = folder.run(&["characterize", "any.csv"]);
+    assert!(alone.code == 0 && alone.stdout.contains("30.19") && alone.stdout.contains("41.85"), "{}", alone.stderr);
     let replays = answer["replays"].as_array().unwrap();
     assert_eq!(replays.len(), 45, "15 specimens by three laws");
     let own: Vec<_> = replays.iter().filter(|r| r["law"] == "fabric").collect();

@@ -76,9 +76,21 @@ impl FabricTests {
         Ok(())
     }
 
-    /// Numbers and curves of the fabric. Errors as for [`characterize`].
+    /// Numbers and curves of the fabric.
+    ///
+    /// # Errors
+    /// No test at all, and as for [`characterize`].
     pub fn reduce(&self, settings: &Reduction) -> Result<Characterized, CompareError> {
+        let Some(origin) =
+            self.coupons.iter().map(|c| c.provenance).chain(self.bent.iter().map(|b| b.provenance)).next()
+        else {
+            let help = "name a file of tensile tests, or of bending lengths";
+            return Err(CompareError::refused("no specimen was given", help));
+        };
         let mut found = characterize(&self.coupons, settings)?;
+        if self.coupons.is_empty() {
+            found.provenance = origin;
+        }
         for table in &self.bent {
             found.bend(&bending_lengths_m(table), table.provenance.word());
         }

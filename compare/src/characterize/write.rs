@@ -26,6 +26,7 @@ pub fn fabric_toml(found: &Characterized, settings: &Reduction, program: &str) -
 /// What would have to be there for [`fabric_toml`].
 pub fn missing(found: &Characterized) -> &'static str {
     match found.thickness_m {
+        _ if found.specimens.is_empty() => "a law needs tensile tests; add their files",
         None => "the thickness is missing; add --thickness 0.05mm or # thickness_mm: 0.05 in the files",
         Some(_) => "a law needs specimens pulled along warp or fill; woven and orthotropic need 0°, 45° and 90°",
     }

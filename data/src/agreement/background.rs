@@ -1,6 +1,6 @@
 //! A marker that stays where it is while the robot moves: a place on the background that looks like a marker.
 
-use super::seen::{Doubt, Seen, SeenRun, minus, size};
+use super::seen::{Doubt, Level, Seen, SeenRun, minus, size};
 use crate::units::mm;
 
 /// A marker moves at least this part of the way of one that is nearer to the base.
@@ -20,16 +20,14 @@ pub(super) fn background(seen: &Seen) -> Option<Doubt> {
 
 fn of_run(seen: &Seen, run: &SeenRun) -> Option<Doubt> {
     let rest = run.at_rest()?;
-    let ways: Vec<Vec<f64>> = (0..rest.len()).map(|marker| ways_m(run, marker)).collect();
     for (marker, at) in rest.iter().enumerate() {
         for inner in (0..rest.len()).filter(|inner| size(rest[*inner]) < size(*at)) {
             let last = run.levels.len().saturating_sub(FEWEST);
-            let still = |k: &usize| {
-                let [own, other] = [marker, inner].map(|of| ways[of][*k..].iter().sum::<f64>());
-                other > TELLING_M && own < LEAST_PART * other
+            let still = |k: usize| {
+                let ways = ways_m(run, [marker, inner], k)?;
+                (ways[1] > TELLING_M && ways[0] < LEAST_PART * ways[1]).then_some((k, ways.map(mm)))
             };
-            let Some(k) = (0..=last).find(still) else { continue };
-            let [own, other] = [marker, inner].map(|of| mm(ways[of][k..].iter().sum()));
+            let Some((k, [own, other])) = (0..=last).find_map(still) else { continue };
             let since_s = run.times_s[*run.levels[k].frames.first()?];
             let names = [marker, inner].map(|of| &seen.markers[of].0);
             let message = format!(
@@ -46,12 +44,12 @@ fn of_run(seen: &Seen, run: &SeenRun) -> Option<Doubt> {
 /// Words on the innermost marker if it stays where it is and the next one moves. A robot whose actuator begins beyond it does so too, so it is not a
 /// contradiction.
 pub(crate) fn still_inside(seen: &Seen) -> Option<String> {
-    seen.runs.iter().filter(|run| run.levels.len() >= FEWEST).find_map(|run| {
+    seen.runs.iter().find_map(|run| {
         let rest = run.at_rest()?;
         let mut order: Vec<usize> = (0..rest.len()).collect();
         order.sort_by(|a, b| size(rest[*a]).total_cmp(&size(rest[*b])));
         let [inner, next] = [*order.first()?, *order.get(1)?];
-        let [own, other] = [inner, next].map(|marker| ways_m(run, marker).iter().sum::<f64>());
+        let [own, other] = ways_m(run, [inner, next], 0)?;
         // A body that bends evenly moves a marker by the square of its distance from the base.
         let even = (size(rest[inner]) / size(rest[next])).powi(2);
         let names = [inner, next].map(|of| &seen.markers[of].0);
@@ -70,13 +68,12 @@ pub(crate) fn still_inside(seen: &Seen) -> Option<String> {
     })
 }
 
-/// Way from each hold to the next one \[m\]; 0 where the marker was not seen in both.
-fn ways_m(run: &SeenRun, marker: usize) -> Vec<f64> {
-    let way = |pair: &[super::seen::Level]| match [&pair[0], &pair[1]].map(|level| level.places_m[marker]) {
-        [Some(from), Some(to)] => size(minus(to, from)),
-        _ => f64::INFINITY,
-    };
-    run.levels.windows(2).map(way).map(|way| if way.is_finite() { way } else { 0.0 }).collect()
+/// Ways of two markers over the holds from `first` on in which both were seen \[m\]; `None` if these are too few.
+fn ways_m(run: &SeenRun, markers: [usize; 2], first: usize) -> Option<[f64; 2]> {
+    let both = |level: &Level| Some([level.places_m[markers[0]]?, level.places_m[markers[1]]?]);
+    let places: Vec<[[f64; 3]; 2]> = run.levels[first..].iter().filter_map(both).collect();
+    let way = |of: usize| places.windows(2).map(|pair| size(minus(pair[1][of], pair[0][of]))).sum();
+    (places.len() >= FEWEST).then(|| [0, 1].map(way))
 }
 
 #[cfg(test)]
@@ -103,6 +100,18 @@ mod tests {
         };
         refused(background, later, &["from 5.5 s", "marker b moves by 0.0 mm"]);
         right(background);
+        // Not seen in the last holds but one: it moved meanwhile.
+        let lost = |made: &mut Made| {
+            made.each(|_, t, marker, place| {
+                if marker == 2 && (15.0..30.0).contains(&t) {
+                    *place = [f64::NAN; 2]
+                }
+            })
+        };
+        let mut made = Made::new(1);
+        lost(&mut made);
+        assert!(background(&made.seen()).is_none());
+        refused(background, |made| (lost(made), fixed(made)).1, &["marker c moves by 0.0 mm"]);
         let mut made = Made::new(1);
         made.each(|_, t, marker, place| {
             if marker == 0 {

@@ -47,10 +47,15 @@ fn coarse(log: &LogSeen) -> Option<Doubt> {
     (same as f64 > SAME_TIME * count as f64).then(|| Doubt::new(message, help))
 }
 
-fn gap(seen: &Seen, log: &LogSeen) -> Option<Doubt> {
-    let mut steps: Vec<f64> = log.times_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
+/// Readings that are farther apart have others missing between them \[s\].
+pub(crate) fn longest_step_s(times_s: &[f64]) -> f64 {
+    let mut steps: Vec<f64> = times_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
     steps.sort_by(f64::total_cmp);
-    let most_s = GAP.1.max(GAP.0 * steps[steps.len() * 9 / 10]);
+    GAP.1.max(GAP.0 * steps.get(steps.len() * 9 / 10).copied().unwrap_or(0.0))
+}
+
+fn gap(seen: &Seen, log: &LogSeen) -> Option<Doubt> {
+    let most_s = longest_step_s(&log.times_s);
     let jumps = |k: &usize| {
         let [before, after] = [log.act_pa[*k], log.act_pa[*k + 1]];
         log.times_s[*k + 1] - log.times_s[*k] > most_s && (after - before).abs() > tolerance_act_pa(before.min(after))

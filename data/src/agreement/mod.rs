@@ -25,6 +25,7 @@ mod zoom;
 
 pub(crate) use background::still_inside;
 pub(crate) use frozen::stands_still;
+pub(crate) use log::longest_step_s;
 pub(crate) use seen::{Doubt, LogSeen, Seen};
 
 /// A check: the first contradiction that it finds.
@@ -50,8 +51,11 @@ const CHECKS: [AgreementCheck; 16] = [
     body::body,
 ];
 
-/// What contradicts itself, in the order of [`CHECKS`].
+/// What contradicts itself, in the order of [`CHECKS`]; the size alone where no robot has it, as every place depends on it.
 pub(crate) fn doubts(seen: &Seen) -> Vec<Doubt> {
     let whole = !seen.runs.is_empty() && seen.runs.iter().all(|run| !run.times_s.is_empty());
-    CHECKS.iter().filter(|_| whole).filter_map(|check| check(seen)).collect()
+    match base::size(seen).filter(|_| whole) {
+        Some(doubt) => vec![doubt],
+        None => CHECKS.iter().filter(|_| whole).filter_map(|check| check(seen)).collect(),
+    }
 }

@@ -112,7 +112,14 @@ mod tests {
         assert!((muscle.rows[0].value("contraction") - 0.05).abs() < 1e-15);
         let text = "# areal_mass_g_m2: 155\noverhang_mm,droop_deg\n75,59.04\n60,41.5\n";
         assert_eq!(parse_bench("a.csv", text).unwrap().unwrap().kind.name, "bending_length");
-        assert!(parse_bench("a.csv", "run,t_s,p_act_kpa,marker,x_mm,y_mm\n").unwrap().is_none());
+        let labelled = "# areal_mass_g_m2: 155\nspecimen,overhang_mm,droop_deg\nA1,75,59.04\n";
+        let found = parse_bench("a.csv", labelled).unwrap().unwrap();
+        assert!(found.kind.name == "bending_length" && (bending_lengths_m(&found)[0][0] - 0.0302).abs() < 1e-4);
+        for other in
+            ["run,t_s,p_act_kpa,marker,x_mm,y_mm\n", "run,marker,x_mm,y_mm,p_act_kpa,contraction_pct,force_n\n"]
+        {
+            assert!(parse_bench("a.csv", other).unwrap().is_none(), "{other}");
+        }
     }
 
     #[test]
@@ -132,6 +139,8 @@ mod tests {
         );
         refused("p_act_kpa,contraction_ratio,force_n\n620,5,300\n", &["contraction is 500 %", "contraction_pct"]);
         refused("# areal_mass_g_m2: 155\noverhang_mm,droop_deg\n75,0\n", &["droops by 0", "41.5"]);
+        let words = ["a.csv:2", "a bending_length table has no column direction_deg", "bending_length_mm, overhang_mm"];
+        refused("# areal_mass_g_m2: 155\noverhang_mm,direction_deg\n75,0\n", &words);
         refused("overhang_mm,droop_deg\n75,41\n", &["areal_mass_g_m2 is missing", "# areal_mass_g_m2: 155"]);
     }
 

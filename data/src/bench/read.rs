@@ -11,6 +11,11 @@ pub(super) fn parse(kinds: &'static [BenchKind], file: &str, text: &str) -> Resu
     let (notes, head) = Head::read(&mut lines)?;
     let Some(head) = head else { return Ok(None) };
     let Some(kind) = kinds.iter().find(|kind| is_of(kind, &head.names, &notes)) else { return Ok(None) };
+    let is_other = |name: &String| meaning(name, kind.columns).is_none() && !name.eq_ignore_ascii_case(LABEL);
+    if let Some(other) = head.names.iter().position(is_other) {
+        let message = format!("a {} table has no column {}", kind.name, head.names[other]);
+        return Err(head.fault(other, message, format!("delete it; the columns are {}", wanted(kind))));
+    }
     head.without_unit(kind.columns, |_| Some(true))?;
     let sheet = head.sheet(kind.columns)?;
     let shared = columns::shared(kind.columns, &notes)?;
@@ -32,14 +37,19 @@ pub(super) fn wanted(kind: &BenchKind) -> String {
     format!("{}; if you like {}", needed(kind.columns), others.collect::<Vec<_>>().join(", "))
 }
 
-/// Every column of the table means something in this kind, and the table or its comments have what the kind is about.
+/// A column that names the specimen of a row.
+const LABEL: &str = "specimen";
+
+/// The table has a quantity of the kind and no markers, and it or its comments have what the kind is about.
 fn is_of(kind: &BenchKind, names: &[String], notes: &[Note]) -> bool {
     let field = |name: &String| meaning(name, kind.columns).map(|(at, _)| at);
     let is_there =
         |at: usize| names.iter().chain(notes.iter().map(|note| &note.key)).any(|name| field(name) == Some(at));
     // A fabric's weight may be forgotten; what makes the kind may not.
     let makes_it = |at: &usize| kind.columns[*at].needed && kind.columns[*at].has_unit();
-    names.iter().all(|name| field(name).is_some()) && (0..kind.columns.len()).filter(makes_it).all(is_there)
+    let has_unit = |name: &String| field(name).is_some_and(|at| kind.columns[at].has_unit());
+    let of_bench = names.iter().any(has_unit) && !names.iter().any(|name| name.eq_ignore_ascii_case("marker"));
+    of_bench && (0..kind.columns.len()).filter(makes_it).all(is_there)
 }
 
 fn row(kind: &'static BenchKind, shared: &[Option<f64>], row: &TableRow) -> Result<BenchRow> {

@@ -139,6 +139,8 @@ pub(crate) struct Roles {
     pub units: Vec<Option<String>>,
     /// The largest likelihood that there is.
     pub most_likely: Option<f64>,
+    /// Names of columns that nothing is known of.
+    pub unused: Vec<String>,
     pub told: Vec<String>,
 }
 
@@ -154,7 +156,6 @@ impl Roles {
             let column = options.column(quantity);
             column.is_some_and(|column| header.iter().any(|name| name.eq_ignore_ascii_case(column)))
         };
-        let mut unused = Vec::new();
         for (index, text) in header.iter().copied().enumerate() {
             let name = ColumnName::of(text);
             let said = options.columns.iter().find(|(_, column)| column.eq_ignore_ascii_case(text));
@@ -165,11 +166,11 @@ impl Roles {
             match quantity {
                 Some(quantity) => roles.take(sheet, line, [quantity, text], index, &name, options)?,
                 None if text.is_empty() => {}
-                None => unused.push(text),
+                None => roles.unused.push(text.to_string()),
             }
         }
-        if !unused.is_empty() {
-            roles.told.push(format!("columns that are not used: {}", unused.join(", ")));
+        if !roles.unused.is_empty() {
+            roles.told.push(format!("columns that are not used: {}", roles.unused.join(", ")));
         }
         Ok(roles)
     }
@@ -238,6 +239,23 @@ impl Roles {
         Err(sheet.fault(line, message, help))
     }
 
+    /// What to type if columns of numbers that are not used, of a table with a time, are pressures.
+    pub(super) fn maybe_pressures(sheet: &CellText, options: &ImportOptions) -> Option<String> {
+        let [header, row] = <[_; 2]>::try_from(sheet.head(2)).ok()?;
+        let roles = Roles::of(sheet, 1, &header, options).ok().filter(|roles| roles.time.is_some())?;
+        let is_number = |name: &&String| {
+            let at = header.iter().position(|known| known == name);
+            at.and_then(|at| row.get(at)).is_some_and(|cell| sheet.number(cell).is_some())
+        };
+        let is_body = |name: &&String| ColumnName::of(name).has(&BODY);
+        let (body, act): (Vec<&String>, Vec<&String>) = roles.unused.iter().filter(is_number).partition(is_body);
+        let missing =
+            [("p_act", &act, 1), ("p_body", &body, 0)].into_iter().filter(|(.., k)| roles.pressures[*k].is_none());
+        let typed = missing.filter_map(|(quantity, names, _)| Some(format!("{quantity}={}", names.first()?)));
+        let typed = typed.collect::<Vec<_>>().join(",");
+        (!typed.is_empty()).then(|| format!("; or, if the file has it, name its column: --map {typed}"))
+    }
+
     pub(super) fn lengths(&self, sheet: &CellText, line: u64) -> Result<Lengths> {
         let mut units = self.units.iter().map(Option::as_deref);
         let Some(first) = units.next().flatten() else { return Ok(Lengths::Unsaid) };
@@ -261,6 +279,9 @@ pub(super) fn is_time(name: &ColumnName) -> bool {
     TIMES.split(' ').any(|time| name.is(time))
 }
 
+/// Words for the body.
+const BODY: [&str; 3] = ["body", "base", "tube"];
+
 /// What a column with a telling name holds.
 fn meaning(name: &ColumnName) -> Option<&'static str> {
     let in_pressure = name.unit.as_deref().is_some_and(|unit| si(unit, MeasuredQuantity::Pressure).is_some());
@@ -272,7 +293,7 @@ fn meaning(name: &ColumnName) -> Option<&'static str> {
         _ if name.is_any(&["run", "trial"]) => Some("run"),
         _ if name.is("actuator") => Some("actuator"),
         _ if name.is_any(&["marker", "marker_name", "bodypart", "particle"]) => Some("marker"),
-        _ if name.is("pb") || pressure && name.has(&["body", "base", "tube"]) => Some("p_body"),
+        _ if name.is("pb") || pressure && name.has(&BODY) => Some("p_body"),
         _ if name.is("pa") || pressure && coordinate.is_none() => Some("p_act"),
         _ => coordinate.map(|(part, _)| PARTS[part]),
     }

@@ -1,6 +1,6 @@
 //! Runs cut into holds or bins, cleaned, and compared with each other.
 
-use super::holds::{Kept, PressedRun, bins, clean, median, plateaus};
+use super::holds::{Kept, PressedRun, WILD_SHARE, apart as between, bins, centre, clean, median, plateaus};
 use super::options::ImportOptions;
 use super::recording::{Recording, counted};
 use crate::error::{DataError, Result};
@@ -42,10 +42,22 @@ fn held(file: &str, runs: Vec<PressedRun>, options: &ImportOptions, told: &mut V
         if holds.len() < 2 {
             let (label, count) = (&run.label, holds.len());
             let message = format!("run {label} has {count} holds in which the pressures are kept for {least}");
-            let help = "for a ramp add --bin 2kPa; for short holds --hold 0.2s or --frames 1";
+            let unknown = run.pressures_pa[1].iter().filter(|p| p.is_nan()).count() as u64;
+            let clock = format!("{} have no pressure: check --clock-offset; ", counted(unknown, "frame"));
+            let clock = if unknown > 0 { &clock } else { "" };
+            let help = format!("{clock}for a ramp add --bin 2kPa; for short holds --hold 0.2s or --frames 1");
             return Err(DataError::of(file, message, help));
         }
         let length_m = length_m(&run);
+        let [early, all] = anticipated(&run, &holds, length_m);
+        if early > 1 && 2 * early > all && !options.pressure_logs.is_empty() {
+            let label = &run.label;
+            let message =
+                format!("run {label}: in {early} of {all} changes the robot is there before the pressure changes");
+            let help =
+                "log and camera have two clocks: give the log's time minus the camera's, --clock-offset, or find";
+            return Err(DataError::of(file, message, help));
+        }
         for hold in &mut holds {
             let [moving, wild] = clean(&mut run, hold, length_m);
             taken = [taken[0] + moving, taken[1] + wild];
@@ -64,6 +76,25 @@ fn held(file: &str, runs: Vec<PressedRun>, options: &ImportOptions, told: &mut V
         told.push(format!("lost markers: {wild} far from the others of their hold"));
     }
     Ok(cut)
+}
+
+/// Changes after whose holds the markers are, in the last frame, nearer to their places of the next hold; and all changes that are
+/// clear.
+fn anticipated(run: &PressedRun, holds: &[Kept], length_m: f64) -> [usize; 2] {
+    let mut counts = [0, 0];
+    for pair in holds.windows(2) {
+        let Some(last) = pair[0].frames.last() else { continue };
+        let ahead = |column: &Vec<[f64; 2]>| {
+            let [own, next] = [&pair[0], &pair[1]].map(|hold| centre(column, &hold.frames).map(|(at, _)| at));
+            let (own, next) = (own?, next?);
+            let clear = column[*last][0].is_finite() && between(own, next) > WILD_SHARE * length_m;
+            clear.then(|| between(column[*last], next) < between(column[*last], own))
+        };
+        let votes: Vec<bool> = run.xy_m.iter().filter_map(ahead).collect();
+        counts[0] += usize::from(2 * votes.iter().filter(|ahead| **ahead).count() > votes.len());
+        counts[1] += usize::from(!votes.is_empty());
+    }
+    counts
 }
 
 /// The farthest that a marker is seen from the base.

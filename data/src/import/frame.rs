@@ -1,9 +1,10 @@
 //! From the file's coordinates to the robot's: scale, origin at the base, x along the straight robot, y towards the actuator.
 
 use super::lens::CameraView;
+use super::moved::{Moved, TILTED, third};
 use super::options::{FileAxis, FilePlace, ImportOptions, Scale};
 use super::recording::{LOST, Lengths, Recording};
-use super::vectors::{along, cross, towards, unit_vector};
+use super::vectors::along;
 use crate::error::{DataError, Result};
 use crate::units::mm;
 
@@ -11,8 +12,6 @@ use crate::units::mm;
 const TELLING_M: f64 = 0.005;
 /// Largest angle of the robot at rest to an axis of the file \[rad\].
 const ASKEW: f64 = 0.26;
-/// Largest angle between the plane of the motion and a plane of the file's axes \[rad\]: lengths shrink by 0.1 %.
-const TILTED: f64 = 0.05;
 
 const LARGER_BOARD: &str = "film a board that fills the part of the picture in which the robot moves";
 
@@ -65,7 +64,7 @@ impl CameraRuns<'_> {
         let is_kept = |marker: &usize| Some(*marker) != skipped;
         let kept: Vec<usize> = (0..all.len()).filter(is_kept).collect();
         let markers: Vec<String> = kept.iter().map(|marker| all[*marker].clone()).collect();
-        let moved = Moved::of(self, &bases, &kept, &map);
+        let moved = self.moved(&bases, &kept, &map);
         let axes = self.axes(&markers, &moved, assumed)?;
         let (sin, cos) = self.options.turn_rad.sin_cos();
         let placed = |place: &[f64; 3], base: &[f64; 3]| {
@@ -79,6 +78,25 @@ impl CameraRuns<'_> {
         };
         let xy_m = self.runs.iter().zip(&bases).map(of_run).collect();
         Ok(PlacedRuns { xy_m, markers })
+    }
+
+    /// Where markers are at rest from their base, and how they move.
+    fn moved(&self, bases: &[[f64; 3]], markers: &[usize], map: &Map) -> Moved {
+        let (mut rest, mut by) = (Vec::new(), Vec::new());
+        for &marker in markers {
+            let (mut sums, mut count) = ([[0.0; 3]; 2], 0.0);
+            for ((run, ends), base) in self.runs.iter().zip(self.ends).zip(bases) {
+                let mean = |frames: &[usize]| run.mean_place(marker, frames).map(|place| map.metres(place));
+                let (Some(low), Some(high)) = (mean(&ends.rest), mean(&ends.top)) else { continue };
+                (0..3).for_each(|axis| sums[0][axis] += low[axis] - base[axis]);
+                (0..3).for_each(|axis| sums[1][axis] += high[axis] - low[axis]);
+                count += 1.0;
+            }
+            let [low, high] = sums.map(|of| if count > 0.0 { of.map(|sum| sum / count) } else { LOST });
+            rest.push(low);
+            by.push(high);
+        }
+        Moved { rest, by }
     }
 
     fn fault(&self, message: impl Into<String>, help: impl Into<String>) -> DataError {
@@ -250,7 +268,19 @@ impl CameraRuns<'_> {
         let degrees = angle.to_degrees();
         let axis = axis.word();
         let message = format!("at rest the robot is at {degrees:.0} degrees to the file's {axis}");
-        let help = format!("turn it: --turn {degrees:.1}deg; or correct --base, --axes or the clocks (--clock-offset)");
+        let clocks = "give the log's time minus the camera's, --clock-offset, or find";
+        if let Some([rest, top]) = moved.straightens(ends[1]) {
+            let bent =
+                format!("{message} and bent by {:.1} mm, at the highest pressure by {:.1} mm", mm(rest), mm(top));
+            let help = format!("the pressures belong to other times, or to another column: {clocks}");
+            return Err(self.fault(format!("{bent}: it is bent where it should be straight"), help));
+        }
+        let clocks = if self.options.pressure_logs.is_empty() {
+            String::new()
+        } else {
+            format!("where log and camera have two clocks, {clocks}; else ")
+        };
+        let help = format!("{clocks}correct --base or --axes, or turn the picture: --turn {degrees:.1}deg");
         Err(self.fault(message, help))
     }
 
@@ -268,18 +298,7 @@ impl CameraRuns<'_> {
     }
 }
 
-/// The file's axis across two others.
-fn third(axes: [FileAxis; 2]) -> usize {
-    3 - axes[0].index - axes[1].index
-}
-
 impl FileAxis {
-    fn direction(self) -> [f64; 3] {
-        let mut direction = [0.0; 3];
-        direction[self.index] = if self.turned { -1.0 } else { 1.0 };
-        direction
-    }
-
     fn word(self) -> String {
         let sign = if self.turned { "-" } else { "" };
         format!("{sign}{}", ["x", "y", "z"][self.index])
@@ -321,80 +340,4 @@ pub(crate) fn where_is(run: &Recording, ends: &RestAndTop, place: &FilePlace) ->
         return Err([message, "take another marker".into()]);
     };
     Ok((at, Some(marker)))
-}
-
-/// Where markers are at rest from the base, and how they move to the highest pressure, means over runs \[m\].
-struct Moved {
-    rest: Vec<[f64; 3]>,
-    by: Vec<[f64; 3]>,
-}
-
-impl Moved {
-    fn of(scene: &CameraRuns, bases: &[[f64; 3]], markers: &[usize], map: &Map) -> Moved {
-        let (mut rest, mut by) = (Vec::new(), Vec::new());
-        for &marker in markers {
-            let (mut sums, mut count) = ([[0.0; 3]; 2], 0.0);
-            for ((run, ends), base) in scene.runs.iter().zip(scene.ends).zip(bases) {
-                let mean = |frames: &[usize]| run.mean_place(marker, frames).map(|place| map.metres(place));
-                let (Some(low), Some(high)) = (mean(&ends.rest), mean(&ends.top)) else { continue };
-                (0..3).for_each(|axis| sums[0][axis] += low[axis] - base[axis]);
-                (0..3).for_each(|axis| sums[1][axis] += high[axis] - low[axis]);
-                count += 1.0;
-            }
-            let [low, high] = sums.map(|of| if count > 0.0 { of.map(|sum| sum / count) } else { LOST });
-            rest.push(low);
-            by.push(high);
-        }
-        Moved { rest, by }
-    }
-
-    /// The axis along which the markers are at rest: of their spread, or of a single one's distance from the base.
-    fn along(&self) -> usize {
-        let seen: Vec<&[f64; 3]> = self.rest.iter().filter(|at| at[0].is_finite()).collect();
-        let spread = |axis: usize| {
-            let values = seen.iter().map(|at| at[axis]);
-            values.clone().fold(f64::NEG_INFINITY, f64::max) - values.fold(f64::INFINITY, f64::min)
-        };
-        let size = |axis: usize| match seen[..] {
-            [] => 0.0,
-            [only] => only[axis].abs(),
-            _ => spread(axis),
-        };
-        (0..3).max_by(|a, b| size(*a).total_cmp(&size(*b))).unwrap_or(0)
-    }
-
-    /// From the nearest marker at rest, or the base, to the farthest \[m\].
-    fn line(&self, [near, far]: [usize; 2]) -> [f64; 3] {
-        let from = if near == far { [0.0; 3] } else { self.rest[near] };
-        [0, 1, 2].map(|axis| self.rest[far][axis] - from[axis])
-    }
-
-    /// Directions along the robot and towards the actuator in the plane of the line at rest and of the farthest marker's motion, if this
-    /// plane is tilted out of the plane of two axes. One of these axes that is in the plane is kept; without one, the robot at rest is
-    /// straight. One marker may be off the line from the base, so it shows no tilt.
-    fn tilted(&self, axes: [FileAxis; 2], ends: [usize; 2]) -> Option<[[f64; 3]; 2]> {
-        if ends[0] == ends[1] {
-            return None;
-        }
-        let (line, by) = (self.line(ends), self.by[ends[1]]);
-        let normal = unit_vector(cross(unit_vector(line)?, by))?;
-        if normal[third(axes)].abs() >= TILTED.cos() {
-            return None;
-        }
-        let [first, second] = axes.map(FileAxis::direction);
-        let is_kept = |axis: [f64; 3]| along(axis, normal).abs() <= TILTED;
-        let x = match [first, second].map(is_kept) {
-            [true, _] => cross(normal, cross(first, normal)),
-            [false, true] => cross(second, normal),
-            [false, false] => line,
-        };
-        let x = unit_vector(towards(x, line))?;
-        Some([x, towards(cross(normal, x), by)])
-    }
-
-    fn ends(&self, axis: usize) -> Option<[usize; 2]> {
-        let by = |a: &usize, b: &usize| self.rest[*a][axis].abs().total_cmp(&self.rest[*b][axis].abs());
-        let seen = || (0..self.rest.len()).filter(|k| self.rest[*k][0].is_finite());
-        Some([seen().min_by(by)?, seen().max_by(by)?])
-    }
 }

@@ -155,7 +155,7 @@ pub(crate) fn branches(act: &[f64], back_pa: f64) -> Vec<(Range<usize>, bool)> {
 }
 
 /// Part of the robot's length beyond which a place in a hold is wild.
-const WILD_SHARE: f64 = 0.05;
+pub(super) const WILD_SHARE: f64 = 0.05;
 /// Robust standard deviations of its hold beyond which a place is wild.
 const WILD_SD: f64 = 10.0;
 /// Frames of a hold in which the robot may still be on its way: none in a hold of so few.
@@ -193,12 +193,12 @@ pub(crate) fn clean(run: &mut PressedRun, kept: &mut Kept, length_m: f64) -> [u6
 }
 
 /// Distance of two places; without the guard of `hypot` against overflow, which takes a tenth of an import.
-fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
+pub(super) fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
     ((a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2)).sqrt()
 }
 
 /// Median place of a marker over frames, and its robust standard deviation; `None` where it was seen less than three times.
-fn centre(column: &[[f64; 2]], frames: &[usize]) -> Option<([f64; 2], f64)> {
+pub(super) fn centre(column: &[[f64; 2]], frames: &[usize]) -> Option<([f64; 2], f64)> {
     let places = frames.iter().map(|frame| column[*frame]);
     let seen: Vec<[f64; 2]> = places.filter(|place| place[0].is_finite()).collect();
     if seen.len() < 3 {

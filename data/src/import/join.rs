@@ -3,6 +3,7 @@
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
+use super::columns::Roles;
 use super::options::ImportOptions;
 use super::pressure::Log;
 use super::recording::{Recording, counted};
@@ -239,10 +240,11 @@ fn pressures(sheet: &CellText, run: &mut Recording, log: Option<&Log>, options: 
         }
         told.extend(log.join(sheet.file, run, options)?);
     }
+    let own = || Roles::maybe_pressures(sheet, options).unwrap_or_default();
     let [body, act] = &mut run.pressures;
     if act.is_none() {
         let help = "add --pressure log.csv, a table of time and pressure: time_s,p_act_kpa,p_body_kpa";
-        return Err(sheet.fault(0, "the actuator's pressure is not known", help));
+        return Err(sheet.fault(0, "the actuator's pressure is not known", format!("{help}{}", own())));
     }
     match options.body_pa {
         Some(body_pa) => {
@@ -255,7 +257,7 @@ fn pressures(sheet: &CellText, run: &mut Recording, log: Option<&Log>, options: 
         }
         None if body.is_none() => {
             let help = "add --body-pressure 2kPa, or a column p_body_kpa in the pressure log";
-            return Err(sheet.fault(0, "the body's pressure is not known", help));
+            return Err(sheet.fault(0, "the body's pressure is not known", format!("{help}{}", own())));
         }
         None => {}
     }

@@ -25,6 +25,7 @@ mod layout;
 mod lens;
 mod loggers;
 mod motive;
+mod moved;
 mod options;
 mod pressure;
 mod qualisys;

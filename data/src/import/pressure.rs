@@ -2,13 +2,14 @@
 
 use super::clock::{Clock, Readings, agree, tracks};
 use super::columns::{ColumnName, Roles, is_time, is_unit};
+use super::holds::median;
 use super::loggers::Plain;
 use super::options::ImportOptions;
 use super::recording::{Recording, counted};
 use super::sheet::CellText;
 use crate::agreement::LogSeen;
 use crate::error::{DataError, Fault, Result};
-use crate::policy::{HIGHEST_GAUGE_PA, ROOM_PA, tolerance_act_pa};
+use crate::policy::{HIGHEST_GAUGE_PA, ROOM_PA, tolerance_act_pa, tolerance_body_pa};
 use crate::units::kpa;
 use spelling::units::Range;
 
@@ -24,6 +25,8 @@ pub(crate) struct Log {
 
 /// Two readings of one time are one if nearer than this \[s\].
 const SAME_TIME_S: f64 = 1e-6;
+/// A robot moves between readings that are farther apart than this \[s\].
+const COARSE_S: f64 = 0.25;
 const DAY_S: f64 = 86_400.0;
 /// Lines among which the names of the columns are looked for.
 const MOST_HEAD: usize = 100;
@@ -66,6 +69,21 @@ fn bare(cell: &str) -> &str {
     cell.trim_matches(['(', ')', '[', ']'])
 }
 
+/// Names of the file, or the caller's where they are `-` or the file's has no known unit; and the note on the others.
+fn renamed(names: Vec<String>, given: &[String]) -> (Vec<String>, Option<String>) {
+    let has_unit = |name: &str| ColumnName::of(name).unit.is_some_and(|unit| is_unit(&unit));
+    let is_kept = |(name, given): (&String, &String)| given != "-" && has_unit(name) && name != given;
+    let kept: Vec<&str> =
+        names.iter().zip(given).filter(|pair| is_kept(*pair)).map(|(name, _)| name.as_str()).collect();
+    let note = "its columns have names: --log-columns was not used";
+    if given.len() != names.len() {
+        return (names, (!given.is_empty()).then(|| note.to_string()));
+    }
+    let note = (!kept.is_empty()).then(|| format!("{note} for {}", kept.join(", ")));
+    let name = |pair: (&String, &String)| if is_kept(pair) { pair.0.clone() } else { pair.1.clone() };
+    (names.iter().zip(given).map(name).collect(), note)
+}
+
 /// The names that the caller gives to the columns of a log without names.
 fn unnamed(sheet: &CellText, (number, line): (u64, &str), options: &ImportOptions) -> Result<Vec<String>> {
     let cells = sheet.split(line);
@@ -94,14 +112,12 @@ impl Log {
         }
         let (at, names) =
             if plain.names.is_empty() { named(sheet, &lines, options)? } else { (0, plain.names.clone()) };
-        let has_names = at > 0 || !plain.names.is_empty();
+        let (names, unused) = renamed(names, &options.log_columns);
         let shown: Vec<&str> = names.iter().map(String::as_str).collect();
         let first = lines[at.saturating_sub(1)].0;
         let roles = Roles::of(sheet, first, &shown, options)?;
         let (time, second) = Log::columns(sheet, first, &shown, &roles)?;
         let values_pa = roles.pressures.map(|column| column.map(|_| Vec::new()));
-        let unused = "its columns have names: --log-columns was not used";
-        let unused = (has_names && !options.log_columns.is_empty()).then(|| unused.to_string());
         let told = plain.told.iter().chain(&roles.told).cloned().chain(unused).collect();
         let mut log = Log { file: sheet.file.to_string(), times_s: Vec::new(), values_pa, names, told };
         let (mut cells, mut midnights) = (Vec::new(), 0.0);
@@ -181,14 +197,23 @@ impl Log {
             let frames = counted(outside as u64, "frame");
             told.push(format!("left out: {frames} outside the pressure log"));
         }
+        let mut unknown = 0;
         for (which, values) in self.values_pa.iter().enumerate() {
             let Some(values) = values else { continue };
+            let changing = self.changing(values, [tolerance_body_pa, tolerance_act_pa][which]);
             let value = |(place, t): (&Option<usize>, &f64)| match place {
                 Some(k) if options.bin_pa.is_some() => self.between(values, *k, clock.at(*t)),
+                Some(k) if changing[*k] && clock.at(*t) > self.times_s[*k] + SAME_TIME_S => f64::NAN,
                 Some(k) => values[*k],
                 None => f64::NAN,
             };
-            recording.pressures[which] = Some(places.iter().zip(&recording.times).map(value).collect());
+            let found: Vec<f64> = places.iter().zip(&recording.times).map(value).collect();
+            unknown = unknown.max(found.iter().filter(|p| p.is_nan()).count() - outside);
+            recording.pressures[which] = Some(found);
+        }
+        if unknown > 0 {
+            let frames = counted(unknown as u64, "frame");
+            told.push(format!("left out: {frames} between two readings in which the pressure changes"));
         }
         if !recording.in_seconds {
             recording.times.iter_mut().for_each(|t| *t *= clock.rate);
@@ -220,6 +245,16 @@ impl Log {
             next.checked_sub(1).filter(|_| t_s <= end)
         };
         times.iter().map(reading).collect()
+    }
+
+    /// Readings after which the pressure changes until the next one, and nothing shows when; a log that writes changes only is none.
+    fn changing(&self, values: &[f64], tolerance_pa: fn(f64) -> f64) -> Vec<bool> {
+        let gaps: Vec<f64> = self.times_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let most_s = 2.0 * median(gaps.clone()).unwrap_or(0.0);
+        let steps = || values.windows(2).map(|pair| (pair[1] - pair[0]).abs() > tolerance_pa(pair[0].min(pair[1])));
+        let sampled = 2 * steps().filter(|changes| *changes).count() < steps().count();
+        let is_lost = |(changes, gap_s): (bool, &f64)| sampled && changes && *gap_s > COARSE_S && *gap_s <= most_s;
+        steps().zip(&gaps).map(is_lost).chain([false]).collect()
     }
 
     fn between(&self, values: &[f64], k: usize, t_s: f64) -> f64 {

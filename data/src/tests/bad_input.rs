@@ -176,7 +176,7 @@ fn pressure_below_zero_is_refused() {
         read(&with_cell(5, 3, "-2"))
             .unwrap_err()
             .message()
-            .starts_with("body pressure must be from 0.5 to 100 kPa, not -2")
+            .starts_with("body pressure must be from 0.5 to 215 kPa, not -2")
     );
 }
 

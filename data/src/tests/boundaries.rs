@@ -55,6 +55,9 @@ fn pressures_are_told_by_what_robots_have() {
         assert!(!of(high(body), low(act)).contains(&like) && !of(low(body), high(act)).contains(&like), "{unit}");
     }
     assert!(of(2.0, 990.0).is_empty() && of(2.0, 1010.0).contains("must be from 0 to 1000 kPa, not 1010"));
+    assert!(
+        of(214.0, 20.0).is_empty() && of(216.0, 20.0).contains("body pressure must be from 0.5 to 215 kPa, not 216")
+    );
     let vented = |act: f64| {
         said(two_holds("p_body_kpa,p_act_kpa,x_mm,y_mm", |hold| {
             format!("2,{},60,{hold}", if hold == 0 { act } else { 20.0 })

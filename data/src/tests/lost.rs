@@ -99,6 +99,27 @@ fn rows_without_a_position_are_lost_frames() {
     assert_eq!(found, expected);
 }
 
+/// Rows without a position say that the marker was there to be seen: the other runs show where.
+#[test]
+fn a_marker_that_one_run_never_saw_is_filled_in_and_one_that_most_runs_never_saw_is_refused() {
+    let blind = |runs: &[&str]| {
+        let line = |row: &str| {
+            let cells: Vec<&str> = row.split(',').collect();
+            let is_lost = runs.contains(&cells[0]) && cells[6] == "2";
+            if is_lost { format!("{},,\n", cells[..7].join(",")) } else { format!("{row}\n") }
+        };
+        read(&table(3, 3).lines().map(line).collect::<String>())
+    };
+    let data = blind(&["2"]).unwrap();
+    let whole = blind(&[]).unwrap();
+    assert!(data.lost.unseen.is_empty() && data.lost.filled.len() == data.holds.len(), "{:?}", data.lost);
+    assert!(data.lost.filled.iter().all(|[run, _, marker]| [*run, *marker] == [1, 1]));
+    let off = data.coordinates_m.iter().zip(&whole.coordinates_m).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    assert!(off < 2e-3, "{off}");
+    let most = blind(&["2", "3"]).unwrap_err();
+    assert!(most.message().contains("marker 2 was seen by fewer than two thirds of the runs in every hold"), "{most}");
+}
+
 /// A marker in a hold with few frames would leave every hold with as few samples.
 #[test]
 fn a_glimpse_of_a_marker_is_a_loss() {

@@ -86,6 +86,52 @@ fn a_log_of_another_clock_is_noticed_and_its_offset_found_or_given() {
     refused_paths(&files, &late, &["4.4 s ahead, as given", "change up to 1.0 s apart", "is 3.40 s ahead"]);
 }
 
+/// Three frames a hold: too few changes to find a clock, enough to refuse one. No wrong clock sends the user to turn the picture first.
+#[test]
+fn a_recording_with_few_changes_refuses_wrong_clocks() {
+    let runs = [1, 2, 3].map(|run| super::case(&format!("cases/c01-deeplabcut/run{run}.csv")));
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("late.csv");
+    let text = std::fs::read_to_string(super::case("cases/c01-deeplabcut/pressure.csv")).unwrap();
+    for (late_s, words) in [
+        (0.3, "5 frames have no pressure"),
+        (0.9, "5 frames have no pressure"),
+        (1.2, "the robot is there before the pressure changes"),
+        (3.0, "does not follow the pressure"),
+        (5.0, "bent where it should be straight"),
+        (7.3, "does not follow the pressure"),
+        (-3.0, "does not follow the pressure"),
+        (-10.0, "where log and camera have two clocks"),
+    ] {
+        let row = |line: &str| {
+            let (t, rest) = line.split_once(',').unwrap();
+            t.parse::<f64>().map_or(line.to_string(), |t| format!("{:.3},{rest}", t + late_s))
+        };
+        std::fs::write(&path, text.lines().map(|line| row(line) + "\n").collect::<String>()).unwrap();
+        let pressure_logs = vec![path.clone()];
+        let options = ImportOptions { pressure_logs, ..super::pixels("cases/c01-deeplabcut/pressure.csv") };
+        refused_paths(&runs, &options, &[words, "--clock-offset"]);
+        let right = import(&runs, &ImportOptions { offset: Offset::Given(late_s), ..options }, &mut |_, _| ());
+        assert_eq!(right.unwrap().dataset.holds.len(), 5, "{late_s}");
+    }
+}
+
+/// Frames between two readings in which the pressure changes have neither of them.
+#[test]
+fn a_log_with_a_reading_a_second_leaves_out_what_it_does_not_know() {
+    let folder = tempfile::tempdir().unwrap();
+    let [tracks, log] = files(&folder, 0.0, 0.0);
+    let text = std::fs::read_to_string(&log).unwrap();
+    for first in [0, 10, 45] {
+        let few: String =
+            text.lines().take(1).chain(text.lines().skip(1 + first).step_by(50)).map(|l| format!("{l}\n")).collect();
+        std::fs::write(&log, few).unwrap();
+        let made = import(std::slice::from_ref(&tracks), &options(&log), &mut |_, _| ()).unwrap();
+        is_right(&made);
+        told(&made, &["between two readings in which the pressure changes"]);
+    }
+}
+
 /// 19 holds of 20 s; one phone films 30 frames per second, the other 27.75 in the mean.
 #[test]
 fn a_frame_rate_that_is_not_that_of_the_video_is_refused_and_found() {

@@ -55,6 +55,35 @@ fn options_that_a_log_with_names_and_units_does_not_need_are_reported() {
     assert!(kpa.told.iter().all(|told| !told.contains("--pressure-unit")), "{:?}", kpa.told);
 }
 
+/// A column that the caller skips needs no unit, and one without a unit has the caller's name.
+#[test]
+fn names_of_the_caller_stand_for_names_without_units() {
+    let names = |names: &str| names.split(',').map(str::to_string).collect::<Vec<_>>();
+    let row = |t: f64, pressures: &str| format!("{},0.4,{pressures}", 1e3 * t);
+    let read = |given: &str| {
+        let options = ImportOptions { log_columns: names(given), ..pixels("") };
+        other("Clock,Pressure (V),Inner (V),Outer (V)\n", row, ImportOptions { body_pa: None, ..options })
+    };
+    let made = read("t_ms,-,p_body_kpa,p_act_kpa").unwrap();
+    assert_eq!(equals_reference(&made, 3, 0.0).len(), 3);
+    assert!(made.told.iter().all(|word| !word.contains("--log-columns")), "{:?}", made.told);
+}
+
+/// A long table with pressures of any names: the refusal names their columns.
+#[test]
+fn columns_that_may_be_pressures_are_named() {
+    let text = std::fs::read_to_string(case("cases/reference_markers.csv")).unwrap();
+    let text = text.replacen("p_body_kpa,p_act_kpa", "Body,Sensor", 1);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("long.csv");
+    std::fs::write(&path, text).unwrap();
+    let files = [path];
+    super::refused_paths(&files, &ImportOptions::default(), &["--pressure log.csv", "--map p_act=Sensor,p_body=Body"]);
+    let typed = [("p_act", "Sensor"), ("p_body", "Body")].map(|(a, b)| (a.to_string(), b.to_string())).to_vec();
+    let options = ImportOptions { columns: typed, pressure_unit_pa: Some(1e3), ..ImportOptions::default() };
+    assert!(import(&files, &options, &mut |_, _| ()).is_ok());
+}
+
 /// The reference's pressures with other times and another head.
 fn other(head: &str, row: impl Fn(f64, &str) -> String, options: ImportOptions) -> Result<Imported, data::DataError> {
     let folder = tempfile::tempdir().unwrap();

@@ -13,13 +13,14 @@ mod track;
 
 use super::options::{ImportOptions, Offset};
 use super::recording::Recording;
+use crate::agreement::longest_step_s;
 use crate::error::ClockTracks;
 use crate::policy::{SAME_ACTUATOR_PA, tolerance_act_pa};
 use edges::SignalEdge;
 use follows::{CameraFrame, follows};
 pub(crate) use pairs::Clock;
 use pairs::{ClockCandidate, TrackPair};
-use track::Track;
+use track::{Track, noise_of};
 
 /// Least correlation of movement and pressure.
 const FOLLOWS: f64 = 0.95;
@@ -161,6 +162,7 @@ impl<'a> ClockJudge<'a> {
     fn follows(&self, clock: Clock) -> Option<f64> {
         let [first, last] = self.sides.log_s;
         let times_s = self.readings.times_s;
+        let longest_s = longest_step_s(times_s);
         let on_its_way = |t_s: f64| {
             let near = ON_ITS_WAY * self.sides.gap_s;
             let next = self.sides.log.partition_point(|edge| edge.t_s < t_s - near);
@@ -173,14 +175,14 @@ impl<'a> ClockJudge<'a> {
             }
             let at = times_s.partition_point(|t| *t <= t_s).saturating_sub(1);
             let [body_pa, act_pa] = self.readings.values_pa.map(|values| values[at]);
-            act_pa.is_finite().then(|| CameraFrame {
+            (act_pa.is_finite() && t_s <= times_s[at] + longest_s).then(|| CameraFrame {
                 moved: *moved,
                 act_pa,
                 branch: (self.rising[at], (body_pa * 1e-3).round() as i64),
             })
         };
         let frames: Vec<CameraFrame> = self.track.times.iter().zip(&self.along).filter_map(frame).collect();
-        follows(&frames)
+        follows(&frames, noise_of(&self.along))
     }
 
     fn explains(&self, candidate: &ClockCandidate) -> bool {

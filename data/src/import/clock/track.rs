@@ -43,8 +43,7 @@ impl Track {
         if columns.is_empty() || times.len() < 3 {
             return None;
         }
-        let steps = |values: &Vec<f64>| values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
-        let noise = columns.iter().map(|values| SD_PER_STEP * median(steps(values)).unwrap_or(0.0)).collect();
+        let noise = columns.iter().map(|values| noise_of(values)).collect();
         let direction = principal(&columns);
         Some(Track { times, columns, noise, direction })
     }
@@ -53,6 +52,12 @@ impl Track {
         let at = |k: usize| self.direction.iter().zip(&self.columns).map(|(d, values)| d * values[k]).sum();
         (0..self.times.len()).map(at).collect()
     }
+}
+
+/// Standard deviation of noise, from the steps of all frames: most of them are within holds.
+pub(super) fn noise_of(values: &[f64]) -> f64 {
+    let steps = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
+    SD_PER_STEP * median(steps).unwrap_or(0.0)
 }
 
 fn mean(values: &[f64]) -> f64 {
