@@ -123,6 +123,20 @@ mod tests {
     use super::*;
     use crate::{Model, Scenario};
 
+    #[test]
+    fn a_face_that_is_not_stiffer_than_one_sheet_has_no_effect() {
+        let tip = |bending_nm: f64| {
+            let sheet = "[effects.fold_energy]\nbending_nm = 5e-5\n[effects.stuck_face]\n";
+            let text = format!("{}\n{sheet}bending_nm = {bending_nm}\n", crate::shipped("spam-textbook").unwrap());
+            let model = Model::new(&Scenario::parse(&text).unwrap());
+            let mut at = model.prediction();
+            model.predict(&crate::Loads::uniform(2e3, 2e4), &mut at).unwrap();
+            at.tip.y_m
+        };
+        assert_eq!([1e-9, 5e-5].map(tip), [tip(0.0); 2]);
+        assert!(tip(1e-3) < tip(0.0));
+    }
+
     /// Both parts again: the clamped plate, and beams on the foundation along the sides.
     #[test]
     fn a_face_folds_bends_and_crimps_as_a_plate() {
