@@ -138,7 +138,7 @@ fn no_gas_shrinks_as_its_pressure_rises() {
         ["spam", "cpam", "epam", "fpam"].map(|name| (name, Scenario::parse(models::shipped(name).unwrap()).unwrap()));
     for (robot, scenario) in shipped.into_iter().chain(in_space()) {
         let model = Model::new(&scenario);
-        let mut known = 0;
+        let (mut known, mut before) = (0, f64::NAN);
         for i in 0..200 {
             let loads = Loads::uniform(2e3, 50.0 * f64::from(i));
             let Ok(GasVolumes { m3, per_pa }) = model.volumes(&loads, &mut model.prediction()) else { continue };
@@ -147,6 +147,9 @@ fn no_gas_shrinks_as_its_pressure_rises() {
                 assert!(per_pa[gas][gas].is_nan() || per_pa[gas][gas] >= -1e-12, "{robot} {i}: {per_pa:?}");
             }
             known += usize::from(m3[0].is_finite());
+            // Within 0.001 cm³. The fPAM's volume falls as it opens, which is a fault of its laws (theory.md).
+            assert!(robot == "fpam" || !(m3[0] < before - 1e-9), "{robot} {i}: {before} {m3:?}");
+            before = m3[0];
         }
         assert!(known > 150, "{robot}: volumes at {known} of 200 pressures");
     }
